@@ -6,7 +6,7 @@ use simworld_core::seed::Seed;
 
 /// What is known to lie outside, and how far at most: the middle value over windows of 4 km².
 const OUTSIDE: [(Style, &str, std::ops::RangeInclusive<f64>); 2] =
-    [(Style::Grid, "four-way", 0.32..=0.35), (Style::Suburb, "circuity", 1.055..=1.08)];
+    [(Style::Grid, "four-way", 0.32..=0.35), (Style::Suburb, "circuity", 1.05..=1.08)];
 
 /// Every statistic with its middle value over some windows.
 fn medians(style: Style) -> Vec<(&'static str, f64, bool)> {

@@ -79,10 +79,11 @@ impl Beside {
                         continue;
                     }
                     let (own, others) = (&sweeps[rank], &sweeps[other]);
-                    if !touch(&own.long, &others.long) {
+                    if !touch(own.long.as_ref(), others.long.as_ref()) {
                         continue;
                     }
-                    let with_any = touch(&own.long, &others.lorry) || touch(&own.lorry, &others.long);
+                    let with_any = touch(own.long.as_ref(), others.lorry.as_ref())
+                        || touch(own.lorry.as_ref(), others.long.as_ref());
                     let list = if with_any { &mut tight } else { &mut narrow };
                     list[a.index()].push(b.0);
                     list[b.index()].push(a.0);
@@ -104,8 +105,8 @@ fn are_beside(network: &RoadNetwork, a: ConnectionId, b: ConnectionId) -> bool {
 }
 
 /// Whether two bodies touch, if vehicles of both sizes exist.
-fn touch(own: &Option<Sweep>, other: &Option<Sweep>) -> bool {
-    own.as_ref().zip(other.as_ref()).is_some_and(|(own, other)| own.touches(other))
+fn touch(own: Option<&Sweep>, other: Option<&Sweep>) -> bool {
+    own.zip(other).is_some_and(|(own, other)| own.touches(other))
 }
 
 impl Sweeps {
@@ -117,7 +118,7 @@ impl Sweeps {
         for (own_is_lorry, other_is_lorry) in [(false, false), (false, true), (true, false)] {
             let own = if own_is_lorry { &self.lorry } else { &self.car };
             let others = if other_is_lorry { &other.lorry } else { &other.car };
-            pairs.0 |= u8::from(touch(own, others)) << Pairs::rank(own_is_lorry, other_is_lorry);
+            pairs.0 |= u8::from(touch(own.as_ref(), others.as_ref())) << Pairs::rank(own_is_lorry, other_is_lorry);
         }
         let conflict = |way: ConnectionId, pairs, own, other| Conflict {
             way: way.0,

@@ -12,45 +12,63 @@ use simworld_core::id::IntersectionId;
 use super::manager::{Moment, NONE, Scene, VehicleManager};
 use super::tracks::Tracks;
 
+/// Where a part is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Range {
+    /// An interest reaches it.
+    #[default]
+    Near,
+    /// None does, and ways of parts that are near lead into it.
+    Border,
+    Far,
+}
+
+/// What a part does in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Turn {
+    /// It waits, and nobody looks into it.
+    #[default]
+    Rests,
+    /// It waits, and others may look into it.
+    IsSeen,
+    /// It goes for this step.
+    Goes,
+    /// It goes for several at once.
+    CatchesUp,
+}
+
 /// How a part goes by the clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Clock {
     /// How long ago it was where it is, with the step of now, s.
     waited: f64,
     #[serde(skip)]
-    is_far: bool,
-    /// Whether ways of parts that are not far lead into it.
+    range: Range,
     #[serde(skip)]
-    is_at_border: bool,
-    #[serde(skip)]
-    is_due: bool,
-    #[serde(skip)]
-    is_long: bool,
-    #[serde(skip)]
-    is_watched: bool,
+    turn: Turn,
 }
 
 impl Clock {
     /// Whether it goes in this step.
     #[inline]
     pub(super) fn is_due(&self) -> bool {
-        self.is_due
+        matches!(self.turn, Turn::Goes | Turn::CatchesUp)
     }
 
     /// Whether it goes in this step for several at once.
     #[inline]
     pub(super) fn is_long(&self) -> bool {
-        self.is_long
+        self.turn == Turn::CatchesUp
     }
 
     /// Whether others may look into it in this step although it does not go.
     pub(super) fn is_watched(&self) -> bool {
-        self.is_watched
+        self.turn == Turn::IsSeen
     }
 
     /// Whether it goes once a round.
     pub(super) fn is_far(&self) -> bool {
-        self.is_far
+        self.range != Range::Near
     }
 
     /// What it sees in the step that it goes.
@@ -72,10 +90,15 @@ impl Clock {
         self.waited.is_finite() && self.waited >= 0.0
     }
 
-    fn begin(&mut self, dt: f64, is_due: bool, is_watched: bool) {
+    /// Begins a step of `dt` s in which it waits.
+    fn wait(&mut self, dt: f64, is_seen: bool) {
         self.waited += dt;
-        (self.is_due, self.is_watched) = (is_due, is_watched);
-        self.is_long = is_due && self.waited > dt;
+        self.turn = if is_seen { Turn::IsSeen } else { Turn::Rests };
+    }
+
+    /// It goes in this step of `dt` s after all.
+    fn go(&mut self, dt: f64) {
+        self.turn = if self.waited > dt { Turn::CatchesUp } else { Turn::Goes };
     }
 }
 
@@ -85,31 +108,31 @@ impl VehicleManager {
         let (network, layout) = (&tracks.network, &tracks.layout);
         for (part, layout) in self.parts.iter_mut().zip(&layout.parts) {
             let mut lanes = layout.tracks[..layout.lanes].iter();
-            part.clock.is_far = lanes.all(|lane| is_far(network.lanes[*lane as usize].to));
-            part.clock.is_at_border = false;
+            let is_far = lanes.all(|lane| is_far(network.lanes[*lane as usize].to));
+            part.clock.range = if is_far { Range::Far } else { Range::Near };
         }
         for way in &network.connections {
             let [from, to] = [way.from, way.to].map(|lane| layout.place(lane.0).part as usize);
-            if !self.parts[from].clock.is_far && self.parts[to].clock.is_far {
-                self.parts[to].clock.is_at_border = true;
+            if !self.parts[from].clock.is_far() && self.parts[to].clock.is_far() {
+                self.parts[to].clock.range = Range::Border;
             }
         }
     }
 
-    /// Decides who goes in a step, and forgets what those who go claimed.
+    /// Decides who goes in a step.
     pub(super) fn begin_step(&mut self, tracks: &Tracks, at: &Moment) {
         let ends_round = at.ends_round();
         let somebody_drives = !self.controls.driven.is_empty();
         for clock in self.parts.iter_mut().map(|part| &mut part.clock) {
-            let is_due = ends_round || !clock.is_far;
-            clock.begin(at.dt, is_due, clock.is_at_border || somebody_drives);
+            clock.wait(at.dt, clock.range == Range::Border || somebody_drives);
+            if ends_round || !clock.is_far() {
+                clock.go(at.dt);
+            }
         }
         for id in self.controls.driven.keys() {
             let track = self.whereabouts.get(*id as usize);
             if track != NONE {
-                let clock = &mut self.parts[tracks.layout.place(track).part as usize].clock;
-                clock.is_due = true;
-                clock.is_long = clock.waited > at.dt;
+                self.parts[tracks.layout.place(track).part as usize].clock.go(at.dt);
             }
         }
     }
