@@ -121,7 +121,9 @@ pub fn furnish(
         || parking::park(setting, config, streams.named("parking")),
     );
     // Each part goes as it is taken over: this is when a city takes the most memory.
-    parked.into_iter().for_each(|cars| elements.extend(cars));
+    for cars in parked {
+        elements.extend(cars);
+    }
     green::plant(setting, config, streams.named("greens"), taken, &mut elements);
     decks::clear_below(setting.network, &mut elements);
     elements

@@ -62,7 +62,7 @@ impl Block {
         self.items[ROOM - 1] != NONE
     }
 
-    fn put(&mut self, item: u32, window: &Window) {
+    fn put(&mut self, item: u32, window: Window) {
         let place = self.items.iter().take_while(|item| **item != NONE).count();
         self.items[place] = item;
         for axis in 0..2 {
@@ -72,13 +72,15 @@ impl Block {
 
     /// Which of its outlines are not apart from a box, and were not seen in a cell before: where both go on from there,
     /// they were.
-    fn touching(&self, window: &Window) -> [bool; LANES] {
+    fn touching(&self, window: Window) -> [bool; LANES] {
         let mut touches = [true; LANES];
         for axis in 0..2 {
             let (low, high) = (window.low[axis], window.high[axis]);
             for (place, touches) in touches.iter_mut().enumerate() {
                 let own = self.low[axis][place];
-                *touches &= (own <= high) & (low <= self.high[axis][place]) & (own | low != BEFORE);
+                *touches &= own <= high;
+                *touches &= low <= self.high[axis][place];
+                *touches &= own | low != BEFORE;
             }
         }
         touches
@@ -216,7 +218,7 @@ impl Cells {
 
     /// Whether something holds of the slot of any cell, in a grid of that size, and of what of the rectangle lies in it.
     #[inline]
-    fn any(&self, bits: u32, mut holds: impl FnMut(usize, &Window) -> bool) -> bool {
+    fn any(&self, bits: u32, mut holds: impl FnMut(usize, Window) -> bool) -> bool {
         let mask = (1_i64 << bits) - 1;
         let clipped = |(low, high): (Place, Place), cell: i64| {
             let low = if cell == low.cell { low.part } else { BEFORE };
@@ -228,7 +230,7 @@ impl Cells {
             for column in self.columns.0.cell..=self.columns.1.cell {
                 let (low_x, high_x) = clipped(self.columns, column);
                 let window = Window { low: [low_x, low_y], high: [high_x, high_y] };
-                if holds((first | (column & mask)) as usize, &window) {
+                if holds((first | (column & mask)) as usize, window) {
                     return true;
                 }
             }
