@@ -118,7 +118,8 @@ impl Sweeps {
         for (own_is_lorry, other_is_lorry) in [(false, false), (false, true), (true, false)] {
             let own = if own_is_lorry { &self.lorry } else { &self.car };
             let others = if other_is_lorry { &other.lorry } else { &other.car };
-            pairs.0 |= u8::from(touch(own.as_ref(), others.as_ref())) << Pairs::rank(own_is_lorry, other_is_lorry);
+            pairs.0 |=
+                u8::from(touch(own.as_ref(), others.as_ref())) << Pairs::rank(own_is_lorry, other_is_lorry);
         }
         let conflict = |way: ConnectionId, pairs, own, other| Conflict {
             way: way.0,
