@@ -56,9 +56,9 @@ fn walked(config: &RunConfig) -> f64 {
     let report = assembly.episode.task().report().expect("the task has begun");
     for ((row, spent), either) in report.couriers.iter().zip(&spent).zip(&either) {
         let off = (row.energy - spent).abs();
-        assert!(off < 1e-6 + either * (1.0 + 1e-6), "{} of energy, not {spent}", row.energy);
+        // Rounding falls out differently seldom: a hundredth is five times what was seen.
+        assert!(off < 1e-6 + either.min(0.01 * spent), "{} of energy, not {spent}", row.energy);
     }
-    assert!(either.iter().sum::<f64>() < 0.01 * spent.iter().sum::<f64>(), "{either:?} of {spent:?}");
     assert!(spent.iter().sum::<f64>() > 20.0, "{spent:?}");
     f64::from(laden) / f64::from(steps.max(1_u32))
 }
