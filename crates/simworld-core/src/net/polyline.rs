@@ -191,7 +191,7 @@ impl<'a> Measured<'a> {
         self.length
     }
 
-    /// See [`slice`].
+    /// See [`slice`](fn@slice).
     pub fn slice(&self, from: f64, to: f64) -> Vec<Point2> {
         let mut out = Vec::new();
         self.slice_into(from, to, &mut out);
