@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::manager::Vehicle;
+use super::manager::{EXIT, NONE, Vehicle};
 use super::tally::Tally;
 use super::tracks::Tracks;
 
@@ -27,6 +27,17 @@ impl Claims {
     /// Claims the crossings that a vehicle with leave has not passed; `front` is where it is on its way, negative before it.
     pub(super) fn claim(&self, tracks: &Tracks, vehicle: &Vehicle, front: f64) {
         self.claim_behind(tracks, vehicle.holding, front - vehicle.length());
+    }
+
+    /// Those of a lane with leave to cross claim the crossings beyond its end.
+    pub(super) fn claim_ahead(&self, tracks: &Tracks, queue: &[Vehicle], end: f64) {
+        for vehicle in queue {
+            if vehicle.holding == vehicle.next && vehicle.next != NONE {
+                self.claim(tracks, vehicle, vehicle.s - end);
+            } else if vehicle.next != EXIT {
+                break; // nobody behind has leave either
+            }
+        }
     }
 
     /// Claims the crossings on a way beyond a rear.

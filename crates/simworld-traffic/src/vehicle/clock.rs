@@ -9,8 +9,49 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::id::IntersectionId;
 
-use super::manager::{Moment, NONE, Scene, VehicleManager};
-use super::tracks::Tracks;
+use super::manager::{NONE, Scene, VehicleManager};
+use super::tracks::{Track, Tracks};
+
+/// Time between two steps of those far from all interest, s: half the time gap that drivers keep.
+const FAR_INTERVAL: f64 = 0.5;
+/// The drivers of a lane look beside once in so long, s.
+const LOOKS_BESIDE: f64 = 0.5;
+
+/// When a step is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moment {
+    /// Time at its beginning, s since the start.
+    pub(crate) now: f64,
+    /// Its duration, s.
+    pub(crate) dt: f64,
+    /// Steps before it.
+    pub(crate) step: u64,
+}
+
+impl Moment {
+    /// Whether those far from all interest move up to the present in this step.
+    #[inline]
+    pub(super) fn ends_round(&self) -> bool {
+        (self.step + 1).is_multiple_of(steps_of(FAR_INTERVAL, self.dt))
+    }
+
+    /// Whether the drivers of a lane look beside in this step, those of one lane after those of another.
+    #[inline]
+    pub(super) fn is_turn_of(&self, lane: Track) -> bool {
+        (self.step + u64::from(lane)).is_multiple_of(steps_of(LOOKS_BESIDE, self.dt))
+    }
+
+    /// The same end of a step that began so long before it, s.
+    #[inline]
+    pub(super) fn since(&self, waited: f64) -> Self {
+        Self { now: self.now + (self.dt - waited), dt: waited, ..*self }
+    }
+}
+
+/// Steps of `dt` s in an interval, one at least.
+fn steps_of(interval: f64, dt: f64) -> u64 {
+    (interval / dt).round().max(1.0) as u64
+}
 
 /// Where a part is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

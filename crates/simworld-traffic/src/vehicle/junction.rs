@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use simworld_core::net::Aspect;
 
 use super::claims::Claims;
-use super::clock::Clock;
+use super::clock::{Clock, Moment};
 use super::clusters::{TOO_LONG, Wish};
-use super::manager::{EXIT, Moment, NONE, STANDING, Scene, Vehicle};
+use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
 use super::sirens::{SEES as SIREN_SEES, may_pass_red};
 use super::storage::Storage;

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
+use super::clock::Moment;
 use super::closures::Closures;
 use super::clusters::{Permit, Wish};
 use super::controls::{Controls, hasty};
@@ -38,10 +39,6 @@ use crate::{Counters, Leg, Route, TrafficConfig, Trip};
 pub(crate) const NONE: u32 = u32::MAX;
 /// No connection: the vehicle leaves the network at the end of its lane.
 pub(crate) const EXIT: u32 = u32::MAX - 1;
-/// Time between two steps of those far from all interest, s: half the time gap that drivers keep.
-const FAR_INTERVAL: f64 = 0.5;
-/// The drivers of a lane look beside once in so long, s.
-const LOOKS_BESIDE: f64 = 0.5;
 /// A vehicle slower than this stands, m/s.
 pub(crate) const STANDING: f64 = 0.1;
 
@@ -131,42 +128,6 @@ pub(crate) struct Sight<'a> {
     pub(crate) waiting: &'a [u32],
     /// Bodies on tracks that are not the traffic's own, by track and near side.
     pub(crate) obstacles: &'a [Obstacle],
-}
-
-/// When a step is.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Moment {
-    /// Time at its beginning, s since the start.
-    pub(crate) now: f64,
-    /// Its duration, s.
-    pub(crate) dt: f64,
-    /// Steps before it.
-    pub(crate) step: u64,
-}
-
-impl Moment {
-    /// Whether those far from all interest move up to the present in this step.
-    #[inline]
-    pub(super) fn ends_round(&self) -> bool {
-        (self.step + 1).is_multiple_of(steps_of(FAR_INTERVAL, self.dt))
-    }
-
-    /// Whether the drivers of a lane look beside in this step, those of one lane after those of another.
-    #[inline]
-    pub(super) fn is_turn_of(&self, lane: Track) -> bool {
-        (self.step + u64::from(lane)).is_multiple_of(steps_of(LOOKS_BESIDE, self.dt))
-    }
-
-    /// The same end of a step that began so long before it, s.
-    #[inline]
-    pub(super) fn since(&self, waited: f64) -> Self {
-        Self { now: self.now + (self.dt - waited), dt: waited, ..*self }
-    }
-}
-
-/// Steps of `dt` s in an interval, one at least.
-fn steps_of(interval: f64, dt: f64) -> u64 {
-    (interval / dt).round().max(1.0) as u64
 }
 
 /// What every part sees in a phase.

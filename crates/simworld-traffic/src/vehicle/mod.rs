@@ -43,6 +43,7 @@ mod tracks;
 mod trailing;
 mod types;
 
+pub(crate) use clock::Moment;
 pub(crate) use controls::FreeVehicle;
 pub use following::{CarFollowing, Leader};
 pub(crate) use halts::{Halt, Order, Then};
@@ -50,7 +51,7 @@ pub(crate) use halts::{Halt, Order, Then};
 pub(crate) use idm::advance;
 pub use idm::{HARDEST_BRAKING, Idm};
 pub(crate) use kerb::BEFORE_JUNCTION;
-pub(crate) use manager::{Moment, NONE, Path, STANDING, Sight, Vehicle, VehicleManager};
+pub(crate) use manager::{NONE, Path, STANDING, Sight, Vehicle, VehicleManager};
 pub use mobil::Mobil;
 pub use perception::Perception;
 pub use simworld_core::net::CriticalGaps as Gaps;

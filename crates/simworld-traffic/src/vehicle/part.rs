@@ -385,7 +385,11 @@ impl Part {
                 bits &= bits - 1;
                 let queue = self.slabs.queue_mut(local);
                 if local < layout.lanes {
-                    claim_ahead(scene, claims, queue, scene.tracks.length[layout.tracks[local] as usize]);
+                    claims.claim_ahead(
+                        scene.tracks,
+                        queue,
+                        scene.tracks.length[layout.tracks[local] as usize],
+                    );
                     release_cleared(scene, claims, queue);
                 } else {
                     for vehicle in queue.iter() {
@@ -461,17 +465,6 @@ fn leave_behind(scene: &Scene<'_>, track: Track, vehicle: &mut Vehicle, path: &m
     let row = scene.config.vehicle_type(vehicle.row);
     path.free_time += length / row.free_speed(scene.config, vehicle.factor, speed);
     path.before = track;
-}
-
-/// Vehicles with leave to cross claim the crossings beyond the end of their lane.
-fn claim_ahead(scene: &Scene<'_>, claims: &Claims, queue: &[Vehicle], end: f64) {
-    for vehicle in queue {
-        if vehicle.holding == vehicle.next && vehicle.next != NONE {
-            claims.claim(scene.tracks, vehicle, vehicle.s - end);
-        } else if vehicle.next != EXIT {
-            break; // nobody behind has leave either
-        }
-    }
 }
 
 /// Vehicles at the beginning of a lane whose rear has left the junction give it free; until then they claim its crossings.

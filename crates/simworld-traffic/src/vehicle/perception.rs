@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use simworld_core::ops;
 use simworld_core::seed::Stream;
 
+use super::clock::Moment;
 use super::following::Leader;
-use super::manager::Moment;
 
 /// A driver who is not perfect. The errors of the default are those of the Human Driver Model's authors; a decision a second,
 /// half a second late on average, is ours.
