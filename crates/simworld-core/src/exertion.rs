@@ -21,6 +21,9 @@ const GRAVITY: f64 = 9.81;
 const LEG: f64 = 0.93;
 /// Froude number v²/(g l) at which people change from walking to running (Alexander 1989; Hreljac 1993).
 const CHANGE: f64 = 0.5;
+/// Who is no more than this above it still walks, m/s: a speed that follows from two places is off by rounding, and somebody who goes at just
+/// that speed would walk or run by chance.
+const ROUNDING: f64 = 1e-6;
 /// J to a millilitre of oxygen.
 const OXYGEN: f64 = 20.1;
 
@@ -128,7 +131,7 @@ impl Exertion {
     /// of walking is beyond what was measured, and no less than standing costs is counted.
     pub fn power(&self, speed: f64, grade: f64) -> f64 {
         let mass = self.body + self.load;
-        if speed > Self::change_to_running() {
+        if speed > Self::change_to_running() + ROUNDING {
             // ml of oxygen for each kg and minute, from m/min.
             let per_minute = speed * 60.0;
             let oxygen = 3.5 + self.terrain.factor() * (0.2 * per_minute + 0.9 * per_minute * grade);
@@ -172,8 +175,14 @@ mod tests {
         }
         let change = Exertion::change_to_running();
         assert!((1.9..2.3).contains(&change), "{change}");
-        let (below, above) = (person(0.0).power(change, 0.0), person(0.0).power(change + 1e-9, 0.0));
+        let (below, above) =
+            (person(0.0).power(change, 0.0), person(0.0).power(change + 2.0 * ROUNDING, 0.0));
         assert!(above > below && above < 1.25 * below, "{below} to {above} W");
+        let (from, to) = (Point3::new(512.3, 77.1, 0.0), Point3::new(512.3 + 0.1 * change, 77.1, 0.0));
+        assert!(
+            (person(0.0).energy(&from, &to, 0.1) - 0.1 * below).abs() < 1e-6,
+            "rounding makes nobody run"
+        );
     }
 
     #[test]
