@@ -157,39 +157,47 @@ fn per_step(
         .try_fold(Cost::NONE, |best, _| Ok(best.least(cost(steps, || (0..steps).try_for_each(|_| step()))?)))
 }
 
-/// Processor times of a step of two things, ms, in the mean of their first steps: both are made anew and done in turns, so often, and in each
-/// turn several of a kind one after the other, since some systems count processor time by ticks of several milliseconds.
+/// Steps that one of two things takes before it is the other's turn: longer than the ticks of several milliseconds in which some systems
+/// count processor time, and shorter than a machine that others use keeps its speed.
+const STRIDE: usize = 5;
+
+/// Processor times of a step of two things, ms, in the mean of their first steps: both are made anew in each turn, several of a kind, and go on side by side, a few
+/// steps each, now one and now the other first.
 fn in_turns<A, B>(
     (turns, copies, steps): (usize, usize, usize),
     ours: &(impl Fn() -> Result<A, ProvingError>, impl Fn(&mut A) -> Result<(), ProvingError>),
     plain: &(impl Fn() -> B, impl Fn(&mut B)),
 ) -> Result<Vec<[f64; 2]>, ProvingError> {
-    let turn = || {
+    let turn = |number: usize| {
         let mut several = (0..copies).map(|_| ours.0()).collect::<Result<Vec<A>, _>>()?;
-        let first = cost(copies * steps, || {
-            several.iter_mut().try_for_each(|one| (0..steps).try_for_each(|_| ours.1(one)))
-        })?;
         let mut others: Vec<B> = (0..copies).map(|_| plain.0()).collect();
-        let second = cost(copies * steps, || {
-            for other in &mut others {
-                (0..steps).for_each(|_| plain.1(other));
-            }
-            Ok(())
-        })?;
-        Ok([first.processor, second.processor])
+        let mut taken = [0.0; 2];
+        for stride in 0..2 * (steps / STRIDE) {
+            let which = (number + stride / 2 + stride) % 2;
+            let spent = cost(copies * steps, || {
+                if which == 0 {
+                    several.iter_mut().try_for_each(|one| (0..STRIDE).try_for_each(|_| ours.1(one)))
+                } else {
+                    others.iter_mut().for_each(|other| (0..STRIDE).for_each(|_| plain.1(other)));
+                    Ok(())
+                }
+            })?;
+            taken[which] += spent.processor;
+        }
+        Ok(taken)
     };
     // The first is not counted: the memory of the process grows in it.
-    turn()?;
-    (0..turns).map(|_| turn()).collect()
+    turn(0)?;
+    (0..turns).map(turn).collect()
 }
 
-/// What one takes in relation to the other: the least times, and the median ratio of all turns with the least and the greatest.
+/// What one takes in relation to the other: the mean of all turns, and the median ratio of them with the least and the greatest.
 fn compared(turns: &[[f64; 2]]) -> String {
-    let least = |which: usize| turns.iter().map(|turn| turn[which]).fold(f64::INFINITY, f64::min);
+    let mean = |which: usize| turns.iter().map(|turn| turn[which]).sum::<f64>() / turns.len() as f64;
     let mut ratios: Vec<f64> = turns.iter().map(|[ours, theirs]| ours / theirs).collect();
     ratios.sort_by(f64::total_cmp);
     let [low, median, high] = [0, ratios.len() / 2, ratios.len() - 1].map(|place| ratios[place]);
-    let (ours, theirs) = (least(0), least(1));
+    let (ours, theirs) = (mean(0), mean(1));
     format!(
         "{ours:.2} ms over {theirs:.2} ms: {:.2}; {} turns {median:.2} ({low:.2} to {high:.2})",
         ours / theirs,

@@ -28,14 +28,24 @@ pub(crate) struct Contacts {
     pub(crate) touching: Vec<(EntityId, EntityId)>,
     /// Which of them still do in the substep under examination.
     still: Vec<bool>,
-    /// Where in the list each pair of the engine was found last, by its turn: what lies in a pile is found there again.
-    turns: Vec<u32>,
+    /// What each pair of the engine was last, by its turn: what lies in a pile is found there again.
+    turns: Vec<Turn>,
     /// Where the bodies are in the list that the solver does not move.
     pub(crate) unsolved: Vec<usize>,
     /// What was looked at closely in it.
     met: Vec<Met>,
     /// Those that came to touch in this step, by ascending pair.
     begun: Vec<Contact>,
+}
+
+/// A pair of the engine's colliders that touch, and whose they are: looking that up costs a look at either collider.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    colliders: [ColliderHandle; 2],
+    /// The entities, the lower id first; none where one of them is the ground, or both are one.
+    pair: Option<(EntityId, EntityId)>,
+    /// Where the pair was in the list of those that touch.
+    place: u32,
 }
 
 /// The beginning of a contact.
@@ -77,21 +87,44 @@ impl Contacts {
         self.touching.binary_search(&pair).is_ok()
     }
 
-    /// Notes that a pair touches, if there is nothing to tell of it; says whether that is so.
-    fn goes_on(&mut self, pair: (EntityId, EntityId), turn: usize) -> bool {
-        if self.turns.len() <= turn {
-            self.turns.resize(turn + 1, 0);
+    /// Whose two colliders are that the engine has at a turn, the lower id first; they are asked for where others had it before.
+    fn pair_at(
+        &mut self,
+        turn: usize,
+        colliders: [ColliderHandle; 2],
+        ask: impl FnOnce() -> Option<(EntityId, EntityId)>,
+    ) -> Option<(EntityId, EntityId)> {
+        match self.turns.get_mut(turn) {
+            Some(known) if known.colliders == colliders => known.pair,
+            Some(other) => {
+                *other = Turn { colliders, pair: ask(), place: 0 };
+                other.pair
+            }
+            None => {
+                let pair = ask();
+                self.turns.push(Turn { colliders, pair, place: 0 });
+                pair
+            }
         }
-        let before = self.turns[turn] as usize;
+    }
+
+    /// Notes that the pair at a turn touches, if there is nothing to tell of it; says whether that is so.
+    fn goes_on(&mut self, pair: (EntityId, EntityId), turn: usize) -> bool {
+        let before = self.turns[turn].place as usize;
         let place = if self.touching.get(before) == Some(&pair) {
             before
         } else {
             let Ok(place) = self.touching.binary_search(&pair) else { return false };
-            self.turns[turn] = place as u32;
+            self.turns[turn].place = place as u32;
             place
         };
         self.still[place] = true;
         self.begun.is_empty() || self.begun.binary_search_by_key(&pair, |begun| begun.pair).is_err()
+    }
+
+    /// Forgets which colliders were whose: those of another engine may have the same handles.
+    pub(crate) fn forget_colliders(&mut self) {
+        self.turns.clear();
     }
 
     fn start(&mut self) {
@@ -152,8 +185,10 @@ impl PhysicsDynamics {
     fn find_solved(&self, contacts: &mut Contacts) {
         let touching = self.physics.contact_pairs().filter(|pair| pair.has_any_active_contact());
         for (turn, pair) in touching.enumerate() {
-            let entities = self.entity_of(pair.collider1).zip(self.entity_of(pair.collider2));
-            let Some((a, b)) = entities.filter(|(a, b)| a != b).map(|(a, b)| ordered(a, b)) else { continue };
+            let colliders = [pair.collider1, pair.collider2];
+            let Some((a, b)) = contacts.pair_at(turn, colliders, || self.pair_of(colliders)) else {
+                continue;
+            };
             if contacts.goes_on((a, b), turn) {
                 continue;
             }
@@ -198,6 +233,12 @@ impl PhysicsDynamics {
             }
         }
         met
+    }
+
+    /// Whose two colliders are, the lower id first; none where one of them is the ground, or both are one entity's.
+    fn pair_of(&self, [one, other]: [ColliderHandle; 2]) -> Option<(EntityId, EntityId)> {
+        let (a, b) = self.entity_of(one).zip(self.entity_of(other))?;
+        (a != b).then(|| ordered(a, b))
     }
 
     fn entity_of(&self, collider: ColliderHandle) -> Option<EntityId> {
@@ -273,6 +314,8 @@ mod tests {
     fn substep(contacts: &mut Contacts, found: &[Met]) {
         contacts.start();
         for (turn, met) in found.iter().enumerate() {
+            let pair = contacts.pair_at(turn, [ColliderHandle::invalid(); 2], || Some(met.contact.pair));
+            assert_eq!(pair, Some(met.contact.pair));
             if !contacts.goes_on(met.contact.pair, turn) {
                 contacts.met.push(*met);
             }

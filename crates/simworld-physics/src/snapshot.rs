@@ -173,6 +173,7 @@ impl PhysicsDynamics {
         let is_traffic = |slot: &usize| matches!(self.slots[*slot], Slot::Traffic(_));
         (0..self.slots.len()).filter(is_traffic).for_each(|slot| self.traffic.insert(slot));
         self.contacts.touching = read.touching;
+        self.contacts.forget_colliders();
         self.conditions = read.conditions;
         (self.interest, self.detail_varies) = (read.interest, true);
         self.shoves = read.shoves;
