@@ -6,16 +6,27 @@
 
 use std::sync::Arc;
 
+use crate::asset::Model;
 use crate::geometry::{Pose, Vector3};
 use crate::scene::Shape;
 
 /// What one link looks like, which never changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LinkForm {
     /// Its solid, standing on its origin as those of entities do.
     pub shape: Shape,
+    /// The surface that is drawn in place of the solid, if there is one. It fills the box of the solid, as a model does that of its
+    /// asset's collider; nobody meets it, so that it needs no hulls. Links that share one cost its memory once.
+    pub model: Option<Arc<Model>>,
     /// Its colour, linear-light sRGB primaries in [0, 1]; without one it has that of the entity.
     pub color: Option<[f32; 3]>,
+}
+
+impl LinkForm {
+    /// A link that is drawn as its solid.
+    pub const fn solid(shape: Shape, color: Option<[f32; 3]>) -> Self {
+        Self { shape, model: None, color }
+    }
 }
 
 /// The links of an entity as they are.

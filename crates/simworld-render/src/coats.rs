@@ -7,13 +7,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use simworld_core::asset::{LONGEST_IMAGE, Model, ModelImage, ModelPart, Wrap};
-use simworld_core::id::AssetId;
-use simworld_core::scene::Scene;
 
 use crate::RenderError;
 use crate::gpu::{Gpu, LAYER, ROW, Texels};
 use crate::mesh::ModelId;
-use crate::models::model_of;
+use crate::sources::{Source, Sources};
 use crate::threads;
 
 /// Entries of the table that a part has.
@@ -27,12 +25,12 @@ pub(crate) struct Coats {
     texels: Texels,
     /// Rows that pictures may take.
     most: u32,
-    models: Vec<(AssetId, Arc<Model>)>,
+    models: Vec<(Source, Arc<Model>)>,
     table: Vec<[f32; 4]>,
     /// The longest side of a picture on the device.
     side: u32,
-    /// By asset, the first row of each picture of its model.
-    rows: BTreeMap<AssetId, (Arc<Model>, Vec<u32>)>,
+    /// The first row of each picture of its model.
+    rows: BTreeMap<Source, (Arc<Model>, Vec<u32>)>,
     /// Behind all of them.
     next: u32,
 }
@@ -51,7 +49,7 @@ impl Coats {
         }
     }
 
-    /// By asset, where its parts begin in the table; then the parts.
+    /// By [head](Source::head), where its parts begin in the table; then the parts.
     pub(crate) fn table(&self) -> &[[f32; 4]] {
         &self.table
     }
@@ -64,20 +62,20 @@ impl Coats {
     pub(crate) fn hold(
         &mut self,
         gpu: &Gpu,
-        scene: &dyn Scene,
+        sources: Sources<'_>,
         drawn: &BTreeMap<ModelId, u32>,
     ) -> Result<(), RenderError> {
-        let mut assets: Vec<AssetId> = drawn.keys().map(|id| id.asset).collect();
-        assets.dedup();
-        let there = || assets.iter().filter_map(|id| Some((*id, model_of(scene, *id)?.1)));
+        let mut wanted: Vec<Source> = drawn.keys().map(|id| id.source).collect();
+        wanted.dedup();
+        let there = || wanted.iter().filter_map(|id| Some((*id, sources.find(*id)?.model)));
         let known = self.models.iter().map(|(id, model)| (*id, model));
         if there()
-            .map(|(id, model)| (id, Arc::as_ptr(model)))
+            .map(|(id, model)| (id, Arc::as_ptr(&model)))
             .eq(known.map(|(id, model)| (id, Arc::as_ptr(model))))
         {
             return Ok(());
         }
-        self.models = there().map(|(id, model)| (id, Arc::clone(model))).collect();
+        self.models = there().collect();
         self.lay_out(gpu)?;
         self.fill_table();
         Ok(())
@@ -92,7 +90,7 @@ impl Coats {
             let at = models.binary_search_by_key(id, |(other, _)| *other);
             at.is_ok_and(|at| Arc::ptr_eq(&models[at].1, model))
         });
-        let missing = |rows: &BTreeMap<AssetId, (Arc<Model>, Vec<u32>)>| -> Vec<(AssetId, Arc<Model>)> {
+        let missing = |rows: &BTreeMap<Source, (Arc<Model>, Vec<u32>)>| -> Vec<(Source, Arc<Model>)> {
             models.iter().filter(|(id, _)| !rows.contains_key(id)).cloned().collect()
         };
         let mut wanted = missing(&self.rows);
@@ -144,11 +142,10 @@ impl Coats {
 
     fn fill_table(&mut self) {
         self.table.clear();
-        let Some((last, _)) = self.models.last() else { return };
-        let heads = last.index() + 1;
+        let heads = self.models.iter().map(|(id, _)| id.head() + 1).max().unwrap_or(0);
         self.table.resize(heads, [0.0; 4]);
         for (id, model) in &self.models {
-            self.table[id.index()][0] = self.table.len() as f32;
+            self.table[id.head()][0] = self.table.len() as f32;
             let rows = self.rows.get(id).map_or(&[][..], |(_, rows)| rows);
             for part in &model.parts {
                 self.table.extend(entries_of(part, model, rows, self.side));
@@ -208,7 +205,7 @@ fn rows_of(image: &ModelImage, side: u32) -> u32 {
 }
 
 /// Rows that the pictures of models take.
-fn rows_of_all(models: &[(AssetId, Arc<Model>)], side: u32) -> u64 {
+fn rows_of_all(models: &[(Source, Arc<Model>)], side: u32) -> u64 {
     let images = models.iter().flat_map(|(_, model)| &model.images);
     images.map(|image| u64::from(rows_of(image, side))).sum()
 }

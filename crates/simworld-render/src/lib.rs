@@ -26,6 +26,7 @@ mod renderer;
 mod resident;
 mod sensor;
 mod shadow;
+mod sources;
 mod threads;
 mod view;
 mod works;

@@ -3,15 +3,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use simworld_core::asset::{Asset, Model, ModelVertex, POSE_RATE, Paint};
+use simworld_core::asset::{Model, ModelVertex, POSE_RATE, Paint};
+use simworld_core::geometry::Vector3;
 use simworld_core::id::AssetId;
-use simworld_core::scene::{EntityRef, Scene};
+use simworld_core::scene::EntityRef;
 
 use crate::RenderError;
 use crate::draw_list::Batch;
 use crate::gpu::Gpu;
 use crate::mesh::{ClipPose, Drawn, ModelId, Vertex};
 use crate::poses::Poses;
+use crate::sources::{Modelled, Source, Sources};
 use crate::threads;
 
 /// Says that a material is a colour of its own: 10 bits a channel, as square roots.
@@ -22,7 +24,7 @@ const ENTITY_COLOR: u32 = 1 << 30;
 /// Those that were drawn so far and still belong to a world.
 #[derive(Default)]
 pub(crate) struct Models {
-    held: BTreeMap<AssetId, Held>,
+    held: BTreeMap<Source, Held>,
     /// Grows with every look.
     now: u64,
 }
@@ -50,7 +52,7 @@ impl Models {
     pub(crate) fn hold(
         &mut self,
         gpu: &Gpu,
-        scene: &dyn Scene,
+        sources: Sources<'_>,
         batches: &[&[Batch]],
     ) -> Result<bool, RenderError> {
         self.held.retain(|_, held| Arc::strong_count(&held.model) > 1);
@@ -62,21 +64,21 @@ impl Models {
         let wanted: BTreeSet<ModelId> = drawn.collect();
         let mut is_new = false;
         let mut missing = Vec::new();
-        for ModelId { asset: id, pose } in wanted {
-            let Some((asset, model)) = model_of(scene, id) else { continue };
-            if !self.held.get(&id).is_some_and(|held| Arc::ptr_eq(&held.model, model)) {
-                self.held.insert(id, Held::upload(gpu, asset, model)?);
+        for ModelId { source: id, pose } in wanted {
+            let Some(modelled) = sources.find(id) else { continue };
+            if !self.held.get(&id).is_some_and(|held| Arc::ptr_eq(&held.model, &modelled.model)) {
+                self.held.insert(id, Held::upload(gpu, &modelled)?);
                 is_new = true;
             }
             if let (Some(pose), Some(held)) = (pose, self.held.get_mut(&id))
                 && !held.poses.want(pose, self.now)
             {
-                missing.push((id, asset, model, pose));
+                missing.push((id, modelled, pose));
             }
         }
         is_new |= !missing.is_empty();
-        let posed = threads::each(missing, |(id, asset, model, pose)| {
-            (id, pose, ModelMesh::of(asset, model, Some(pose)).in_triangles())
+        let posed = threads::each(missing, |(id, modelled, pose)| {
+            (id, pose, ModelMesh::of(modelled.size, &modelled.model, Some(pose)).in_triangles())
         });
         for (id, pose, vertices) in posed {
             let Some(held) = self.held.get_mut(&id) else { continue };
@@ -95,7 +97,7 @@ impl Models {
 
     /// Draws a batch of a model.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, id: ModelId, instances: std::ops::Range<u32>) {
-        let Some(held) = self.held.get(&id.asset) else { return };
+        let Some(held) = self.held.get(&id.source) else { return };
         let vertices = id.pose.and_then(|pose| held.poses.get(pose)).unwrap_or(&held.vertices);
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(held.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -110,29 +112,23 @@ impl ModelId {
             let (clip, since) = entity.playing(rig, seconds)?;
             Some(ClipPose { clip: clip as u32, number: rig.clips()[clip].pose_at(since) })
         });
-        Self { asset, pose: playing }
+        Self { source: Source::Asset(asset), pose: playing }
     }
 }
 
-/// The asset of an id, if it has a model.
-pub(crate) fn model_of(scene: &dyn Scene, id: AssetId) -> Option<(&Asset, &Arc<Model>)> {
-    let asset = scene.assets()?.get(id)?;
-    Some((asset, asset.model.as_ref()?))
-}
-
 impl Held {
-    fn upload(gpu: &Gpu, asset: &Asset, model: &Arc<Model>) -> Result<Self, RenderError> {
-        let mesh = ModelMesh::of(asset, model, None);
+    fn upload(gpu: &Gpu, modelled: &Modelled<'_>) -> Result<Self, RenderError> {
+        let mesh = ModelMesh::of(modelled.size, &modelled.model, None);
         let indices = mesh.indices.clone();
         let vertices = mesh.in_triangles();
         let largest = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
         let limit = gpu.device.limits().max_buffer_size;
         if largest > limit {
-            return Err(RenderError::Model { name: asset.name.clone(), bytes: largest, limit });
+            return Err(RenderError::Model { name: modelled.name.to_owned(), bytes: largest, limit });
         }
         let buffer = |usage, bytes: &[u8]| gpu.upload("model", usage, bytes);
         Ok(Self {
-            model: Arc::clone(model),
+            model: Arc::clone(&modelled.model),
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
             indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
             count: indices.len() as u32,
@@ -153,10 +149,9 @@ pub(crate) struct ModelMesh {
 }
 
 impl ModelMesh {
-    /// A model at rest, or in a pose; vertices and triangles are the same ones in all of them.
-    pub(crate) fn of(asset: &Asset, model: &Model, pose: Option<ClipPose>) -> Self {
+    /// A model in a box of that size (m) at rest, or in a pose; vertices and triangles are the same ones in all of them.
+    pub(crate) fn of(size: Vector3, model: &Model, pose: Option<ClipPose>) -> Self {
         const NOBODY: (u32, u32) = (u32::MAX, 0);
-        let size = asset.collider.size();
         let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
         let posed = pose
             .zip(model.rig.as_ref())
@@ -214,7 +209,6 @@ fn packed(color: [f32; 3]) -> u32 {
 #[cfg(test)]
 mod tests {
     use simworld_core::asset::ModelPart;
-    use simworld_core::scene::{EntityKind, Shape};
 
     use super::*;
 
@@ -227,8 +221,7 @@ mod tests {
             parts: vec![part(Paint::Own), part(Paint::Entity)],
             ..Model::default()
         };
-        let asset = Asset::new("sheet", EntityKind::Prop, Shape::cuboid(1.0, 1.0, 1.0));
-        let ModelMesh { vertices, spots, indices } = ModelMesh::of(&asset, &model, None);
+        let ModelMesh { vertices, spots, indices } = ModelMesh::of(Vector3::repeat(1.0), &model, None);
         assert_eq!(indices, [0, 1, 2, 3, 4, 5]);
         assert_eq!(spots.iter().map(|spot| spot[2]).collect::<Vec<_>>(), [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let of_entity: Vec<bool> =

@@ -151,7 +151,7 @@ impl Works {
         if self.residents.names.len() > MOST_SLOTS {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
-        self.coats.hold(&self.gpu, scene, &self.residents.models)?;
+        self.coats.hold(&self.gpu, self.residents.sources(scene), &self.residents.models)?;
         let in_color = options.channels.contains(Channels::RGB);
         let is_cast = table.is_some() || self.casts(config, options, &layout);
         let (globals, features) = self.send(scene, &sight, in_color, is_cast)?;
@@ -343,7 +343,7 @@ impl Works {
         self.scenery.send_picks(&self.gpu, &self.list.picks, &self.residents)?;
         let batches: Vec<&[crate::draw_list::Batch]> =
             self.list.views.iter().flat_map(ViewBatches::all).collect();
-        if self.raster.models.hold(&self.gpu, scene, &batches)? {
+        if self.raster.models.hold(&self.gpu, self.residents.sources(scene), &batches)? {
             self.raster.shadows.forget();
         }
         Ok(())

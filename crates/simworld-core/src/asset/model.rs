@@ -227,10 +227,29 @@ impl Model {
     /// Nothing to see or to meet, numbers that are none, triangles without vertices, pictures that are none or not there, another
     /// size than the collider's.
     pub fn validate(&self, collider: Vector3) -> Result<(), ModelError> {
-        for (what, count) in [("triangle", self.triangles.len()), ("hull", self.hulls.len())] {
-            if count == 0 {
-                return Err(ModelError::Empty { what });
+        self.validate_surface(collider)?;
+        if self.hulls.is_empty() {
+            return Err(ModelError::Empty { what: "hull" });
+        }
+        for (index, hull) in self.hulls.iter().enumerate() {
+            if hull.points.len() < 4 {
+                return Err(ModelError::Hull { index, points: hull.points.len() });
             }
+            for point in &hull.points {
+                checked("a point of hull", index, *point, LARGEST_MODEL)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks all of it that is seen, and nothing that is met: that it is a surface which fills a box of that size (length, width, height,
+    /// m) standing on the origin.
+    ///
+    /// # Errors
+    /// As [`validate`](Self::validate), but for hulls.
+    pub fn validate_surface(&self, size: Vector3) -> Result<(), ModelError> {
+        if self.triangles.is_empty() {
+            return Err(ModelError::Empty { what: "triangle" });
         }
         for (index, vertex) in self.vertices.iter().enumerate() {
             checked("the position of vertex", index, vertex.position, LARGEST_MODEL)?;
@@ -249,20 +268,12 @@ impl Model {
         if parts != self.triangles.len() as u64 {
             return Err(ModelError::Parts { parts, triangles: self.triangles.len() });
         }
-        for (index, hull) in self.hulls.iter().enumerate() {
-            if hull.points.len() < 4 {
-                return Err(ModelError::Hull { index, points: hull.points.len() });
-            }
-            for point in &hull.points {
-                checked("a point of hull", index, *point, LARGEST_MODEL)?;
-            }
-        }
         if let Some(rig) = self.rig.as_ref().map(|rig| rig.desc().vertices.len()).filter(|rig| *rig != count)
         {
             return Err(ModelError::Rig { rig, vertices: count });
         }
         self.validate_looks()?;
-        self.fits(collider)
+        self.fits(size)
     }
 
     fn validate_looks(&self) -> Result<(), ModelError> {

@@ -11,6 +11,7 @@ use simworld_core::geometry::{Pose, Vector3};
 use super::error::{RobotError, check};
 use super::meeting::Meeting;
 use super::tree::Tree;
+use super::visual::LinkVisual;
 use crate::apart::Kinds;
 
 /// More links than this are no robot.
@@ -86,6 +87,8 @@ pub struct LinkDescription {
     pub inertia: Matrix3<f64>,
     /// What others meet.
     pub solids: Vec<LinkSolid>,
+    /// What is seen of it, in place of the solids; where there is nothing, these are seen.
+    pub visuals: Vec<LinkVisual>,
 }
 
 /// One convex solid of a link.
@@ -294,21 +297,23 @@ impl LinkDescription {
             }
             check(&place, "mass", self.mass, f64::MIN_POSITIVE..=1e7, "more than 0 kg to what has inertia")?;
         }
-        for solid in &self.solids {
-            solid.check(&place)?;
-        }
-        Ok(())
+        self.solids.iter().try_for_each(|solid| solid.check(&place))?;
+        self.visuals.iter().try_for_each(|visual| visual.check(&place))
     }
 }
 
 impl LinkSolid {
     fn check(&self, place: &dyn Fn() -> String) -> Result<(), RobotError> {
         check_pose(place, &self.link_from_solid)?;
-        for part in self.color.into_iter().flatten() {
-            check(place, "color", f64::from(part), 0.0..=1.0, "0 to 1")?;
-        }
+        check_color(place, self.color)?;
+        self.form.check(place)
+    }
+}
+
+impl Form {
+    pub(super) fn check(&self, place: &dyn Fn() -> String) -> Result<(), RobotError> {
         let size = |field, value| check(place, field, value, 1e-6..=FAR, "1e-6 to 1e4 m");
-        match &self.form {
+        match self {
             Form::Box { size: edges } => edges.iter().try_for_each(|edge| size("size", *edge)),
             Form::Cylinder { radius, length } => {
                 size("radius", *radius).and_then(|()| size("length", *length))
@@ -326,7 +331,7 @@ impl LinkSolid {
                 for part in points.iter().flat_map(|point| point.iter()) {
                     check(place, "corner", *part, -FAR..=FAR, "at most 1e4 m")?;
                 }
-                let volume = super::solids::volume(&self.form);
+                let volume = super::solids::volume(self);
                 check(place, "volume", volume, 1e-15..=f64::MAX, "corners of a solid, not of a plane")
             }
         }
@@ -400,7 +405,12 @@ impl JointDescription {
     }
 }
 
-fn check_pose(place: &dyn Fn() -> String, pose: &Pose) -> Result<(), RobotError> {
+pub(super) fn check_color(place: &dyn Fn() -> String, color: Option<[f32; 3]>) -> Result<(), RobotError> {
+    let mut parts = color.into_iter().flatten();
+    parts.try_for_each(|part| check(place, "color", f64::from(part), 0.0..=1.0, "0 to 1"))
+}
+
+pub(super) fn check_pose(place: &dyn Fn() -> String, pose: &Pose) -> Result<(), RobotError> {
     for part in pose.translation.vector.iter() {
         check(place, "place", *part, -FAR..=FAR, "at most 1e4 m")?;
     }

@@ -1,5 +1,6 @@
 //! What can be wrong with a robot.
 
+use simworld_core::asset::ModelError;
 use thiserror::Error;
 
 /// Why a description, or a file with one, is no robot: what is wrong, where, and how to mend it.
@@ -113,6 +114,14 @@ pub enum RobotError {
         what: String,
         /// What to do.
         mend: &'static str,
+    },
+    /// What is to be seen is no surface.
+    #[error("{place}: what is seen of it is no surface: {error}")]
+    Model {
+        /// Which link.
+        place: String,
+        /// Why.
+        error: ModelError,
     },
     /// A file that cannot be had.
     #[error("{path}: {reason}")]

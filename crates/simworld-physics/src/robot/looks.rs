@@ -1,37 +1,51 @@
-//! What is drawn of a robot: its solids, link by link.
+//! What is drawn of a robot, link by link: what is seen of each, or else its solids.
 
 use std::sync::Arc;
 
+use simworld_core::asset::Model;
 use simworld_core::geometry::{Pose, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::links::LinkForm;
 use simworld_core::scene::{Shape, World, WorldError};
 
 use super::description::{Form, LinkSolid, RobotDescription};
+use super::solids::surface;
 use super::tree::Tree;
+use super::visual::{LEAST, LinkVisual, VisualForm, size_of};
 
-/// Nothing thinner than this is drawn, m: core takes no smaller solids.
-const LEAST: f64 = 1e-3;
-
-/// The solids of a robot as core has them, and where they are.
+/// What is drawn of a robot as core has it, and where it is.
 #[derive(Clone, Debug)]
 pub(super) struct Looks {
     forms: Arc<[LinkForm]>,
     /// For each, the part that it belongs to, and where it stands in that.
     places: Vec<(usize, Pose)>,
-    /// Entity from solid, as of the last step.
+    /// Entity from what is drawn, as of the last step.
     poses: Vec<Pose>,
 }
 
 impl Looks {
     pub(super) fn of(description: &RobotDescription, tree: &Tree) -> Self {
         let (mut forms, mut places) = (Vec::new(), Vec::new());
+        let mut add =
+            |number: usize, Drawn { shape, model, form_from_shape }: Drawn, part_from_form: &Pose, color| {
+                forms.push(LinkForm { shape, model, color });
+                places.push((number, part_from_form * form_from_shape));
+            };
         for (number, part) in tree.parts.iter().enumerate() {
             for (link, place, part_from_solid) in &part.solids {
-                let LinkSolid { form, color, .. } = &description.links[*link].solids[*place];
-                let (shape, solid_from_shape) = drawn(form);
-                forms.push(LinkForm { shape, color: *color });
-                places.push((number, part_from_solid * solid_from_shape));
+                let link = &description.links[*link];
+                if link.visuals.is_empty() {
+                    let LinkSolid { form, color, .. } = &link.solids[*place];
+                    add(number, drawn(form), part_from_solid, *color);
+                }
+            }
+            for (link, place, part_from_visual) in &part.visuals {
+                let LinkVisual { form, color, .. } = &description.links[*link].visuals[*place];
+                let drawn = match form {
+                    VisualForm::Solid(form) => drawn(form),
+                    VisualForm::Model(model) => Drawn::model(Arc::clone(model), Pose::identity()),
+                };
+                add(number, drawn, part_from_visual, *color);
             }
         }
         let poses = vec![Pose::identity(); places.len()];
@@ -53,37 +67,58 @@ impl Looks {
     }
 }
 
-/// The solid of a form, and where it stands in the form's frame: core's solids stand on their origin. What is convex and no more is
-/// drawn as the box around it along the axes of its frame.
-fn drawn(form: &Form) -> (Shape, Pose) {
-    let upright = |height: f64| Pose::translation(0.0, 0.0, -0.5 * height);
+/// Something as core draws it.
+struct Drawn {
+    shape: Shape,
+    model: Option<Arc<Model>>,
+    /// Core's solids stand on their origin, and forms have theirs in the middle.
+    form_from_shape: Pose,
+}
+
+impl Drawn {
+    /// A solid as high as that.
+    fn solid(shape: Shape, height: f64) -> Self {
+        Self { shape, model: None, form_from_shape: Pose::translation(0.0, 0.0, -0.5 * height) }
+    }
+
+    /// A model where its own origin is.
+    fn model(model: Arc<Model>, form_from_shape: Pose) -> Self {
+        Self { shape: Shape::Box { size: size_of(&model) }, model: Some(model), form_from_shape }
+    }
+}
+
+fn drawn(form: &Form) -> Drawn {
     match *form {
         Form::Box { size } => {
             let size = size.map(|edge| edge.max(LEAST));
-            (Shape::Box { size }, upright(size.z))
+            Drawn::solid(Shape::Box { size }, size.z)
         }
         Form::Cylinder { radius, length } => {
             let (radius, height) = (radius.max(LEAST), length.max(LEAST));
-            (Shape::Cylinder { radius, height }, upright(height))
+            Drawn::solid(Shape::Cylinder { radius, height }, height)
         }
         Form::Sphere { radius } => {
             let radius = radius.max(LEAST);
-            (Shape::Sphere { radius }, upright(2.0 * radius))
+            Drawn::solid(Shape::Sphere { radius }, 2.0 * radius)
         }
         Form::Capsule { radius, length } => {
             let radius = radius.max(LEAST);
             let height = length + 2.0 * radius;
-            (Shape::Capsule { radius, height }, upright(height))
+            Drawn::solid(Shape::Capsule { radius, height }, height)
         }
-        Form::Convex { ref points } => {
-            let first = points.first().copied().unwrap_or_default();
-            let around = |least: fn(f64, f64) -> f64| {
-                points.iter().fold(first, |corner, point| corner.zip_map(point, least))
-            };
-            let (low, high) = (around(f64::min), around(f64::max));
-            let size: Vector3 = (high - low).map(|edge| edge.max(LEAST));
-            let middle = (low + high) * 0.5;
-            (Shape::Box { size }, Pose::translation(middle.x, middle.y, middle.z) * upright(size.z))
-        }
+        Form::Convex { ref points } => match surface(form).and_then(|surface| surface.model()) {
+            Some((model, at)) => Drawn::model(Arc::new(model), Pose::translation(at.x, at.y, at.z)),
+            None => boxed(points),
+        },
     }
+}
+
+/// The box around points: a solid so thin that its faces have no area is drawn as that.
+fn boxed(points: &[Vector3]) -> Drawn {
+    let first = points.first().copied().unwrap_or_default();
+    let (low, high) =
+        points.iter().fold((first, first), |(low, high), point| (low.inf(point), high.sup(point)));
+    let (size, middle) = ((high - low).map(|edge| edge.max(LEAST)), (low + high) * 0.5);
+    let form_from_shape = Pose::translation(middle.x, middle.y, middle.z - 0.5 * size.z);
+    Drawn { shape: Shape::Box { size }, model: None, form_from_shape }
 }

@@ -28,7 +28,8 @@ const WORLD: &str = "world";
 /// the motor gives, and has the joint's name. Links that pass through one another here are told by `exclude`, those on one joint too, and kinds of
 /// solids by `contype` and `conaffinity`. Colours are in steps of 1/255 of sRGB. There is no ground in it.
 ///
-/// What MJCF has no word for is left out: speeds at which motors drive no further, and how materials bounce. Where two things touch,
+/// What MJCF has no word for is left out: speeds at which motors drive no further, and how materials bounce. So is what is seen of links in place of
+/// their solids. Where two things touch,
 /// `MuJoCo` takes the greater friction of both and this physics the geometric mean: a ground with `priority="1"` and that mean as its
 /// friction makes both the same. `MuJoCo` takes no link without mass that a joint moves.
 ///

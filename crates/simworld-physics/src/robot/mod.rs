@@ -17,6 +17,7 @@ mod motor;
 mod physics_body;
 mod solids;
 mod tree;
+mod visual;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -44,6 +45,7 @@ use looks::Looks;
 use meeting::Meeting;
 use motor::Motor;
 use tree::Tree;
+pub use visual::{LinkVisual, Surface, VisualForm};
 
 use crate::apart::Apart;
 pub use crate::apart::Kinds;

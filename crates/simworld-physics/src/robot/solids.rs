@@ -6,7 +6,8 @@ use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::prelude::SharedShape;
 
 use super::description::Form;
-use crate::convert::to_vector;
+use super::visual::Surface;
+use crate::convert::{from_vector, to_vector};
 use crate::shape::upright;
 
 /// The engine's solid, and where it sits in the frame of the form; none for points that span no solid.
@@ -27,6 +28,13 @@ pub(super) fn solid(form: &Form) -> Option<(SharedShape, RapierPose)> {
             (if points.len() < 4 { None } else { hull().ok().flatten() }?, level)
         }
     })
+}
+
+/// The surface of a convex solid as the engine has it; none for points that span no solid.
+pub(super) fn surface(form: &Form) -> Option<Surface> {
+    let (solid, _) = solid(form)?;
+    let (points, triangles) = solid.as_convex_polyhedron()?.to_trimesh();
+    Some(Surface { points: points.iter().map(|point| from_vector(*point)).collect(), triangles })
 }
 
 /// Its volume, m³; 0 for points that span no solid.

@@ -31,8 +31,17 @@ pub(super) struct Part {
     pub(super) lump: Lump,
     /// Link and place in its list, and where the solid sits in the part.
     pub(super) solids: Vec<(usize, usize, Pose)>,
+    /// The same of what is seen in place of them.
+    pub(super) visuals: Vec<(usize, usize, Pose)>,
     /// What it hangs on; none for the first.
     pub(super) hinge: Option<Hinge>,
+}
+
+impl Part {
+    /// One without anything yet.
+    fn on(hinge: Option<Hinge>) -> Self {
+        Self { lump: Lump::default(), solids: Vec::new(), visuals: Vec::new(), hinge }
+    }
 }
 
 /// The joint between two parts.
@@ -162,7 +171,7 @@ impl Tree {
         let order = Order::of(description)?;
         let mut tree =
             Self { parts: Vec::new(), links: vec![(usize::MAX, Pose::identity()); order.children.len()] };
-        tree.parts.push(Part { lump: Lump::default(), solids: Vec::new(), hinge: None });
+        tree.parts.push(Part::on(None));
         let mut open = vec![(order.root, 0, Pose::identity())];
         while let Some((link, part, part_from_link)) = open.pop() {
             tree.take(description, link, part, part_from_link);
@@ -189,6 +198,8 @@ impl Tree {
         whole.lump = whole.lump.and(&Lump::of(data, &part_from_link));
         let solids = data.solids.iter().enumerate();
         whole.solids.extend(solids.map(|(at, solid)| (link, at, part_from_link * solid.link_from_solid)));
+        let visuals = data.visuals.iter().enumerate();
+        whole.visuals.extend(visuals.map(|(at, seen)| (link, at, part_from_link * seen.link_from_visual)));
     }
 
     /// The link at the other end of a joint, with the part that it belongs to.
@@ -205,7 +216,7 @@ impl Tree {
         }
         let slides = joint.kind == JointKind::Prismatic;
         let hinge = Hinge { joint: place, parent, parent_from_joint, axis: joint.axis.normalize(), slides };
-        self.parts.push(Part { lump: Lump::default(), solids: Vec::new(), hinge: Some(hinge) });
+        self.parts.push(Part::on(Some(hinge)));
         (child, self.parts.len() - 1, Pose::identity())
     }
 

@@ -1,6 +1,8 @@
 //! What a picture is told of robots is where their bodies are: links, and the legs of dogs that are led over the ground.
 #![allow(clippy::unwrap_used)]
 
+use std::sync::Arc;
+
 use crate::common::{Stage, at};
 use simworld_core::action::Action;
 use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
@@ -9,7 +11,10 @@ use simworld_core::id::EntityId;
 use simworld_core::limbs::{JointAngles, Side};
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, Scene, Shape};
-use simworld_physics::robot::{Base, Form, JointDescription, JointKind, LinkDescription, RobotDescription};
+use simworld_physics::robot::{
+    Base, Form, JointDescription, JointKind, LinkDescription, LinkVisual, RobotDescription, Surface,
+    VisualForm,
+};
 use simworld_physics::{JointCommand, Material, QuadrupedModel, Robot, RobotConfig};
 
 /// A mast with an arm that turns about its top, a pad of points at its end, and a ball fixed on that.
@@ -88,11 +93,66 @@ fn links_are_where_the_robot_has_them() {
             assert!((seen - is).norm() < 1e-9, "step {step}, {link}: {seen}, not {is}");
             assert!(pose.rotation.angle_to(&frame.rotation) < 1e-9, "step {step}, {link}");
         }
-        assert_eq!(told[2].0, Shape::cuboid(0.2, 0.1, 0.3), "points are drawn as the box around them");
+        assert_eq!(told[2].0, Shape::cuboid(0.2, 0.1, 0.3), "what is convex fills its box");
         tips.push(told[3].1.translation.vector);
     }
     let swept = tips.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>();
     assert!(swept > 2.0, "the arm turned: {swept} m");
+}
+
+/// The surface of the pad is that of the five points: six faces, of which a mean corner is one of the points.
+#[test]
+fn what_is_convex_is_drawn_as_that() {
+    let mut stage = Stage::new();
+    let id = put(&mut stage);
+    stage.run(1);
+    let models: Vec<_> = stage.world.links(id).unwrap().iter().map(|(form, _)| form.model.clone()).collect();
+    assert!([0, 1, 3].iter().all(|link| models[*link].is_none()), "boxes and balls need none");
+    let model = models[2].as_ref().expect("points have a surface of their own");
+    assert_eq!(model.triangles.len(), 6, "two sides of a wedge, its slopes and its back");
+    for vertex in &model.vertices {
+        // The middle of the bottom of the box is at (0.1, 0.05, 0).
+        let at = Vector3::from(vertex.position.map(f64::from)) + Vector3::new(0.1, 0.05, 0.0);
+        let pad = [(0.0, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.3), (0.2, 0.1, 0.3)];
+        assert!(pad.iter().any(|(x, y, z)| (at - Vector3::new(*x, *y, *z)).norm() < 1e-6), "{at}");
+    }
+}
+
+/// A link with something to see is drawn as that, and met as its solids.
+#[test]
+fn what_is_seen_of_a_link_stands_in_place_of_its_solids() {
+    let surface = Surface {
+        points: [(0.0, 0.0, 0.2), (0.4, 0.0, 0.2), (0.0, 0.4, 0.2), (0.0, 0.0, 0.6)]
+            .map(|(x, y, z)| Vector3::new(x, y, z))
+            .to_vec(),
+        triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    };
+    let mut description = boom();
+    let tip =
+        LinkVisual::of_surface(&surface, &Pose::translation(0.0, 0.0, 1.0), Some([0.1, 0.2, 0.3])).unwrap();
+    description.links[0].visuals.push(tip);
+    let mut stage = Stage::new();
+    let id = stage.spawn(EntityKind::Robot, at(0.0, 0.0, 0.0), Shape::cuboid(0.3, 0.3, 2.0));
+    stage.physics.add_robot(&stage.world, id, RobotConfig::from(description.clone())).unwrap();
+    stage.run(1);
+    let links = stage.world.links(id).unwrap();
+    assert_eq!(links.len(), 4, "one in place of the mast");
+    let (form, pose) =
+        links.iter().find(|(form, _)| form.color.is_some()).expect("nothing else has a colour");
+    assert_eq!(form.shape, Shape::cuboid(0.4, 0.4, 0.4));
+    assert!((pose.translation.vector - Vector3::new(0.2, 0.2, 1.2)).norm() < 1e-9, "{pose}");
+
+    let wrong = |spoil: &dyn Fn(&mut LinkVisual)| {
+        let mut spoilt = description.clone();
+        spoil(&mut spoilt.links[0].visuals[0]);
+        spoilt.validate().unwrap_err().to_string()
+    };
+    let hollow = wrong(&|seen| seen.form = VisualForm::Model(Arc::default()));
+    assert!(hollow.contains("mast") && hollow.contains("surface"), "{hollow}");
+    let pale = wrong(&|seen| seen.color = Some([0.0, 2.0, 0.0]));
+    assert!(pale.contains("color"), "{pale}");
+    let flat = wrong(&|seen| seen.form = VisualForm::Solid(Form::Sphere { radius: 0.0 }));
+    assert!(flat.contains("radius"), "{flat}");
 }
 
 #[test]

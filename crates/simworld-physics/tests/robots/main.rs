@@ -13,3 +13,4 @@ mod quadruped_land;
 mod robot_files;
 mod robot_written;
 mod robots;
+mod seen;

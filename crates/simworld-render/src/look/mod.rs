@@ -3,6 +3,7 @@
 mod afar;
 mod buildings;
 mod creatures;
+mod links;
 mod people;
 mod posture;
 mod riders;
@@ -13,14 +14,13 @@ mod vehicles;
 
 use simworld_core::geometry::Pose;
 use simworld_core::id::AssetId;
-use simworld_core::links::Links;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
 
 use crate::mesh::{Drawn, MeshId, ModelId};
-use crate::models::model_of;
 use crate::resident;
+use crate::sources::{LinkModels, Source, model_of};
 use street::Streets;
 pub(crate) use street::mark_layer;
 
@@ -105,11 +105,16 @@ const LEAVES: [[f32; 3]; 5] =
 pub(crate) struct Looks {
     variation: Stream,
     streets: Streets,
+    links: LinkModels,
 }
 
 impl Default for Looks {
     fn default() -> Self {
-        Self { variation: Seed(0).stream("render/variation"), streets: Streets::default() }
+        Self {
+            variation: Seed(0).stream("render/variation"),
+            streets: Streets::default(),
+            links: LinkModels::default(),
+        }
     }
 }
 
@@ -172,27 +177,10 @@ impl Looks {
         }
     }
 
-    /// What has links is drawn as these: each its solid, where it is.
-    fn articulated(&self, entity: &EntityRef<'_>, links: &Links<'_>, out: &mut Vec<resident::Part>) {
-        /// Shells and joints of robots, in turn, where nobody said a colour.
-        const SHELLS: [[f32; 3]; 2] = [[0.72, 0.73, 0.75], [0.2, 0.21, 0.23]];
-        let plain = self.plain(entity);
-        for (index, (form, entity_from_link)) in links.iter().enumerate() {
-            let (mesh, size) = (primitive(&form.shape), form.shape.size());
-            let scale = [size.x as f32, size.y as f32, size.z as f32];
-            let unit = if mesh == MeshId::Cuboid { 1.0 } else { scale[0] * 0.5 };
-            let color = form.color.or(entity.info.color).unwrap_or(SHELLS[index % 2]);
-            let look = Look { mesh, scale, unit, color, ..plain };
-            let pose = entity.pose * entity_from_link;
-            out.push(resident::Part { mesh: Drawn::Own(mesh), pose, look, details: Detail::EVERY });
-        }
-    }
-
-    /// The look of an entity that is drawn as its asset's model: by the asset shaders find how its parts take light. What stands where
-    /// other meshes have their offsets is none, so their unit is zero.
+    /// The look of an entity that is drawn as its asset's model.
     fn of_model(&self, entity: &EntityRef<'_>, asset: AssetId) -> Look {
         let color = entity.info.color.unwrap_or([1.0; 3]);
-        Look { unit: 0.0, color, second: [asset.index() as f32, 0.0, 0.0], ..self.plain(entity) }
+        as_model(Source::Asset(asset), Look { color, ..self.plain(entity) })
     }
 
     /// The look of an entity under the aspects that signals show.
@@ -227,6 +215,12 @@ impl Looks {
             param: 0.0,
         }
     }
+}
+
+/// The look of what is drawn as a model: by where that comes from shaders find how its parts take light. What stands where other meshes have
+/// their offsets is none, so their unit is zero.
+fn as_model(source: Source, look: Look) -> Look {
+    Look { unit: 0.0, second: [source.head() as f32, 0.0, 0.0], ..look }
 }
 
 fn primitive(shape: &Shape) -> MeshId {
@@ -447,9 +441,9 @@ mod tests {
         let pose = pose_facing(Point3::new(4.0, -2.0, 1.0), 0.6);
         let id = world.spawn(EntityDesc::new(EntityKind::Robot, pose, Shape::cuboid(1.0, 1.0, 1.0))).unwrap();
         let forms: std::sync::Arc<[LinkForm]> = std::sync::Arc::from([
-            LinkForm { shape: Shape::Cylinder { radius: 0.1, height: 0.4 }, color: Some([0.1, 0.2, 0.3]) },
-            LinkForm { shape: Shape::Sphere { radius: 0.2 }, color: None },
-            LinkForm { shape: Shape::cuboid(0.5, 0.1, 0.2), color: None },
+            LinkForm::solid(Shape::Cylinder { radius: 0.1, height: 0.4 }, Some([0.1, 0.2, 0.3])),
+            LinkForm::solid(Shape::Sphere { radius: 0.2 }, None),
+            LinkForm::solid(Shape::cuboid(0.5, 0.1, 0.2), None),
         ]);
         let links = [0.3, 0.9, 1.4].map(|x| pose_facing(Point3::new(x, 0.1, 0.5 * x), 2.0 * x));
         world.set_links(id, &forms, &links).unwrap();

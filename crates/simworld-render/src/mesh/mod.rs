@@ -25,8 +25,9 @@ use buildings::Ridge;
 use figures::Stance;
 pub(crate) use nature::CROWN_RADIUS;
 use people::{Grain, Hair};
-use simworld_core::id::AssetId;
 pub(crate) use street::LAMP_REACH;
+
+use crate::sources::Source;
 
 /// How the fragments of a mesh are painted; each is a pipeline of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -299,10 +300,10 @@ impl MeshId {
     }
 }
 
-/// The model of an asset in one of its poses.
+/// A model in one of its poses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ModelId {
-    pub asset: AssetId,
+    pub source: Source,
     /// None where it stands as it rests.
     pub pose: Option<ClipPose>,
 }
@@ -315,7 +316,7 @@ pub(crate) struct ClipPose {
     pub number: u32,
 }
 
-/// What is drawn of an entity: a mesh of this crate, or the model of its asset.
+/// What is drawn of an entity: a mesh of this crate, or the model of its asset or of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Drawn {
     // Before the large surfaces, as all small things.

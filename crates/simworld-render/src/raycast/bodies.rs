@@ -296,7 +296,7 @@ impl Bodies {
 
     /// Finds where the instances of these slots are, and of which leaves they are.
     fn place(&mut self, scene: &dyn Scene, shapes: &mut Shapes, residents: &Residents, slots: &[u32]) {
-        shapes.learn(scene, residents.models.keys());
+        shapes.learn(residents.sources(scene), residents.models.keys());
         let count = threads::worth(slots.len(), SHARE);
         let wide = slots.len().div_ceil(count).max(1);
         let placer = Placer { shapes, residents, origin: self.origin };

@@ -4,15 +4,14 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use simworld_core::asset::{Asset, Model};
-use simworld_core::id::AssetId;
-use simworld_core::scene::Scene;
+use simworld_core::asset::Model;
 
 use super::bvh::Tree;
 use super::soup::{Shape, Soup};
 use crate::mesh::{ClipPose, Drawn, MeshId, MeshLibrary, ModelId};
-use crate::models::{ModelMesh, model_of};
+use crate::models::ModelMesh;
 use crate::poses::Poses;
+use crate::sources::{Modelled, Source, Sources};
 use crate::threads;
 
 /// Pieces that the codes of the nodes of all meshes can tell, as in rays.wgsl; at eight a triangle they are no more than the tree of one mesh has room for.
@@ -24,7 +23,7 @@ pub(super) struct Shapes {
     /// Runs of pieces that are others than before.
     pub rewritten: Vec<Range<usize>>,
     own: Vec<Shape>,
-    models: BTreeMap<AssetId, Held>,
+    models: BTreeMap<Source, Held>,
     /// Grows with every look.
     now: u64,
 }
@@ -61,49 +60,52 @@ impl Shapes {
     pub(super) fn of(&self, mesh: Drawn) -> Option<Shape> {
         match mesh {
             Drawn::Own(mesh) => self.own.get(mesh as usize).copied(),
-            Drawn::Model(ModelId { asset, pose }) => {
-                let held = self.models.get(&asset)?;
+            Drawn::Model(ModelId { source, pose }) => {
+                let held = self.models.get(&source)?;
                 pose.map_or(Some(held.shape), |pose| held.poses.get(pose).map(|(_, shape)| *shape))
             }
         }
     }
 
     /// Looks up the models that are drawn as their scene has them now, each in the poses in which it is drawn.
-    pub(super) fn learn<'a>(&mut self, scene: &dyn Scene, drawn: impl Iterator<Item = &'a ModelId>) {
+    pub(super) fn learn<'a>(&mut self, sources: Sources<'_>, drawn: impl Iterator<Item = &'a ModelId>) {
         self.now += 1;
         let mut missing = Vec::new();
         for id in drawn {
-            let Some((asset, model)) = model_of(scene, id.asset) else {
-                self.models.remove(&id.asset);
+            let Some(modelled) = sources.find(id.source) else {
+                self.models.remove(&id.source);
                 continue;
             };
-            if !self.models.get(&id.asset).is_some_and(|held| Arc::ptr_eq(&held.model, model)) {
-                self.add_model(id.asset, asset, model);
+            if !self.models.get(&id.source).is_some_and(|held| Arc::ptr_eq(&held.model, &modelled.model)) {
+                self.add_model(id.source, &modelled);
             }
-            if let (Some(pose), Some(held)) = (id.pose, self.models.get_mut(&id.asset))
+            if let (Some(pose), Some(held)) = (id.pose, self.models.get_mut(&id.source))
                 && !held.poses.want(pose, self.now)
             {
-                missing.push((*id, pose, asset, model));
+                missing.push((*id, pose, modelled));
             }
         }
         self.add_poses(missing);
     }
 
-    fn add_model(&mut self, id: AssetId, asset: &Asset, model: &Arc<Model>) {
-        let mesh = ModelMesh::of(asset, model, None);
+    fn add_model(&mut self, id: Source, modelled: &Modelled<'_>) {
+        let mesh = ModelMesh::of(modelled.size, &modelled.model, None);
         let soup = Soup::of_model(&mesh);
         let (tree, start) = (soup.tree(), self.pieces.len());
         let shape = self.add(&soup, &tree);
         let length = self.pieces.len() - start;
         let poses = Poses::of_bytes(length as u64 * 16);
-        self.models.insert(id, Held { model: Arc::clone(model), tree: Arc::new(tree), length, shape, poses });
+        self.models.insert(
+            id,
+            Held { model: Arc::clone(&modelled.model), tree: Arc::new(tree), length, shape, poses },
+        );
     }
 
     /// Adds poses in place of others, or behind everything, by as many threads as there are.
-    fn add_poses(&mut self, missing: Vec<(ModelId, ClipPose, &Asset, &Arc<Model>)>) {
+    fn add_poses(&mut self, missing: Vec<(ModelId, ClipPose, Modelled<'_>)>) {
         let mut jobs = Vec::with_capacity(missing.len());
-        for (id, pose, asset, model) in missing {
-            let Some(held) = self.models.get_mut(&id.asset) else { continue };
+        for (id, pose, modelled) in missing {
+            let Some(held) = self.models.get_mut(&id.source) else { continue };
             let spare = held.poses.spare(self.now);
             let start = spare.map_or(self.pieces.len(), |(start, _)| start);
             // Every pose of a model has as many pieces.
@@ -114,10 +116,10 @@ impl Shapes {
             }
             // Its place is its own from now on.
             held.poses.keep(pose, (start, held.shape), self.now);
-            jobs.push((id.asset, pose, start, asset, model, Arc::clone(&held.tree)));
+            jobs.push((id.source, pose, start, modelled, Arc::clone(&held.tree)));
         }
-        let coded = threads::each(jobs, |(id, pose, start, asset, model, tree)| {
-            let mesh = ModelMesh::of(asset, model, Some(pose));
+        let coded = threads::each(jobs, |(id, pose, start, modelled, tree)| {
+            let mesh = ModelMesh::of(modelled.size, &modelled.model, Some(pose));
             (id, pose, start, Soup::of_model(&mesh).coded(&tree, start as u32))
         });
         for (id, pose, start, (pieces, shape)) in coded {

@@ -23,8 +23,8 @@ use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 use crate::classes::class_of;
 use crate::look::{Look, Looks, overhang};
 use crate::mesh::{Drawn, ModelId};
-use crate::models::model_of;
 use crate::occlusion::Block;
+use crate::sources::{Sources, model_of};
 use crate::threads;
 
 const NONE: u32 = u32::MAX;
@@ -210,6 +210,11 @@ impl Residents {
         }
     }
 
+    /// What the models that are drawn are looked up in.
+    pub(crate) fn sources<'a>(&'a self, scene: &'a dyn Scene) -> Sources<'a> {
+        Sources { scene, links: self.looks.links() }
+    }
+
     /// Everything is dressed anew at the next look.
     pub(crate) fn forget(&mut self) {
         self.mark = None;
@@ -235,6 +240,7 @@ impl Residents {
 
     /// Dresses who is in these slots now, by as many threads as that is worth.
     fn look_at(&mut self, scene: &dyn Scene, slots: &[(u32, Option<EntityId>)]) {
+        self.looks.learn(scene, slots.iter().filter_map(|(_, id)| *id));
         let count = threads::worth(slots.len(), SHARE);
         let wide = slots.len().div_ceil(count).max(1);
         let looks = &self.looks;

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 use std::sync::Arc;
 
 use nalgebra::UnitQuaternion;
+use simworld_core::asset::{Model, ModelPart, ModelVertex, Paint};
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point2, Point3, Pose, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
@@ -11,7 +12,7 @@ use simworld_core::limbs::JointAngles;
 use simworld_core::links::LinkForm;
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, Shape, World};
-use simworld_render::{Backend, RenderConfig, Renderer};
+use simworld_render::{Backend, Frame, RenderConfig, Renderer};
 
 use crate::common::{draw, put, renderer};
 
@@ -124,8 +125,8 @@ fn boom(world: &mut World, turned: f64) -> EntityId {
 
 fn turn(world: &mut World, id: EntityId, turned: f64) {
     let forms: Arc<[LinkForm]> = Arc::from([
-        LinkForm { shape: Shape::Cylinder { radius: 0.1, height: 2.0 }, color: None },
-        LinkForm { shape: Shape::cuboid(3.0, 0.2, 0.2), color: Some([0.7, 0.05, 0.02]) },
+        LinkForm::solid(Shape::Cylinder { radius: 0.1, height: 2.0 }, None),
+        LinkForm::solid(Shape::cuboid(3.0, 0.2, 0.2), Some([0.7, 0.05, 0.02])),
     ]);
     let arm = pose_facing(Point3::new(0.0, 0.0, 1.9), turned) * Pose::translation(1.5, 0.0, 0.0);
     world.set_links(id, &forms, &[Pose::identity(), arm]).unwrap();
@@ -163,4 +164,68 @@ fn an_arm_is_seen_where_its_entity_is_not() {
     let camera = Camera::looking_at(Point3::new(0.0, 2.8, 2.0), Point3::new(8.0, 2.8, 2.0), intrinsics);
     let frame = draw(&mut renderer, &world, &camera);
     assert_eq!(frame.entity_at(60, 45), Some(id), "the end of the arm");
+}
+
+/// A pyramid on a base of two metres by two, as a surface in the colour of whom it belongs to; so high, m.
+fn pyramid(height: f32) -> Arc<Model> {
+    let corners =
+        [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, height]];
+    let up = [0.0, 0.0, 1.0];
+    let vertex = |position| ModelVertex { position, normal: up, color: [1.0; 3], ..ModelVertex::default() };
+    let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+    let part = ModelPart { triangles: 6, paint: Paint::Entity, ..ModelPart::default() };
+    let model =
+        Model { vertices: corners.map(vertex).to_vec(), triangles, parts: vec![part], ..Model::default() };
+    Arc::new(model)
+}
+
+/// At half its height a pyramid is half as wide as its base, where the box that it fills is as wide all the way up.
+#[test]
+fn a_link_is_drawn_as_its_surface_in_its_colour() {
+    for backend in [Backend::Raster, Backend::Raycast] {
+        let config = RenderConfig { backend, ..RenderConfig::default() };
+        let Some(mut renderer) = renderer(&config) else { return };
+        let mut world = World::new();
+        let camera = Camera::looking_along(
+            &pose_facing(Point3::new(0.0, 0.0, 1.0), 0.0),
+            Intrinsics::from_fov(200, 150, 0.6).expect("a size in range"),
+        );
+        let (wide, low) = (pyramid(2.0), pyramid(1.0));
+        let ids = [-2.5, 2.5]
+            .map(|y| put(&mut world, EntityKind::Robot, [20.0, y, 0.0], 0.0, Shape::cuboid(0.2, 0.2, 0.2)));
+        let show = |world: &mut World, models: [&Arc<Model>; 2]| {
+            for ((id, model), color) in
+                ids.into_iter().zip(models).zip([[0.8, 0.02, 0.02], [0.02, 0.02, 0.8]])
+            {
+                let height = f64::from(model.vertices[4].position[2]);
+                let shape = Shape::cuboid(2.0, 2.0, height);
+                let form = LinkForm { shape, model: Some(Arc::clone(model)), color: Some(color) };
+                world.set_links(id, &Arc::from([form]), &[Pose::identity()]).unwrap();
+            }
+        };
+        let width_at = |frame: &Frame, id: EntityId, z: f64| {
+            let at = |y: f64| camera.project(&Point3::new(20.0, y, z)).expect("before the camera").0;
+            let row = at(0.0).y as u32;
+            let count = (0..200).filter(|u| frame.entity_at(*u, row) == Some(id)).count() as f64;
+            count / (at(-0.5).x - at(0.5).x)
+        };
+        show(&mut world, [&wide, &wide]);
+        let frame = draw(&mut renderer, &world, &camera);
+        for (id, reddish) in ids.into_iter().zip([true, false]) {
+            for (z, width) in [(0.4, 1.6), (1.0, 1.0), (1.6, 0.4)] {
+                let seen = width_at(&frame, id, z);
+                assert!((seen - width).abs() < 0.2, "{backend:?}: {seen} m wide at {z} m, not {width}");
+            }
+            let y = if reddish { -2.5 } else { 2.5 };
+            let (spot, _) = camera.project(&Point3::new(19.5, y, 1.0)).expect("before the camera");
+            let [r, _, b] = frame.rgb_at(spot.x as u32, spot.y as u32).expect("in the picture");
+            assert!((r > b) == reddish && r.abs_diff(b) > 40, "{backend:?}: red {r}, blue {b}");
+        }
+        // Others of the same entities are drawn as soon as they are told.
+        show(&mut world, [&wide, &low]);
+        let frame = draw(&mut renderer, &world, &camera);
+        assert!((width_at(&frame, ids[0], 1.0) - 1.0).abs() < 0.2, "{backend:?}");
+        assert!((width_at(&frame, ids[1], 0.5) - 1.0).abs() < 0.2, "{backend:?}");
+        assert_eq!(width_at(&frame, ids[1], 1.2), 0.0, "{backend:?}: nothing is up there");
+    }
 }

@@ -28,7 +28,8 @@ impl World {
     /// into the memory of those before; the forms are looked at only when they are others than before.
     ///
     /// # Errors
-    /// No such entity, not a pose each, a pose that is none, or a shape that is no solid; then nothing has changed.
+    /// No such entity, not a pose each, a pose that is none, a shape that is no solid, or a model that is none or no fit for its shape; then
+    /// nothing has changed.
     pub fn set_links(
         &mut self,
         id: EntityId,
@@ -48,7 +49,11 @@ impl World {
             kept.poses.clear();
             kept.poses.extend_from_slice(poses);
         } else {
-            forms.iter().try_for_each(|form| form.shape.validate())?;
+            for (link, LinkForm { shape, model, .. }) in forms.iter().enumerate() {
+                shape.validate()?;
+                let sound = model.as_ref().map_or(Ok(()), |model| model.validate_surface(shape.size()));
+                sound.map_err(|error| WorldError::LinkModel { id, link, error })?;
+            }
             self.links.insert(id, KeptLinks { forms: Arc::clone(forms), poses: poses.to_vec() });
         }
         self.touch(id.index());
@@ -69,12 +74,12 @@ mod tests {
         let pose = pose_facing(Point3::origin(), 0.0);
         let id = world.spawn(EntityDesc::new(EntityKind::Robot, pose, Shape::cuboid(1.0, 1.0, 1.0))).unwrap();
         let before = world.digest();
-        let form = LinkForm { shape: Shape::cuboid(0.1, 0.1, 0.5), color: None };
-        let forms: Arc<[LinkForm]> = Arc::from([form; 2]);
+        let form = LinkForm::solid(Shape::cuboid(0.1, 0.1, 0.5), None);
+        let forms: Arc<[LinkForm]> = Arc::from([form.clone(), form]);
         let poses = [Pose::translation(0.0, 0.0, 0.5), Pose::translation(0.3, 0.0, 1.0)];
         world.set_links(id, &forms, &poses).unwrap();
-        let told: Vec<_> = world.links(id).unwrap().iter().map(|(form, pose)| (*form, *pose)).collect();
-        assert_eq!(told, [(form, poses[0]), (form, poses[1])]);
+        let told: Vec<_> = world.links(id).unwrap().iter().map(|(form, pose)| (form, *pose)).collect();
+        assert_eq!(told, [(&forms[0], poses[0]), (&forms[1], poses[1])]);
         assert_eq!(world.digest(), before, "they follow from what moves them");
 
         let changes = |world: &World, mark| world.changed_since(mark).unwrap().count();
@@ -90,9 +95,12 @@ mod tests {
         assert_eq!(short, Err(WorldError::Links { id, forms: 2, poses: 1 }));
         let nowhere = [poses[0], Pose::translation(f64::NAN, 0.0, 0.0)];
         assert!(matches!(world.set_links(id, &forms, &nowhere), Err(WorldError::Pose { .. })));
-        let thin: Arc<[LinkForm]> =
-            Arc::from([LinkForm { shape: Shape::cuboid(0.0, 1.0, 1.0), color: None }]);
+        let thin: Arc<[LinkForm]> = Arc::from([LinkForm::solid(Shape::cuboid(0.0, 1.0, 1.0), None)]);
         assert!(matches!(world.set_links(id, &thin, &poses[..1]), Err(WorldError::Shape(_))));
+        let hollow = Some(Arc::new(crate::asset::Model::default()));
+        let hollow: Arc<[LinkForm]> = Arc::from([LinkForm { model: hollow, ..forms[0].clone() }]);
+        let refused = world.set_links(id, &hollow, &poses[..1]);
+        assert!(matches!(refused, Err(WorldError::LinkModel { link: 0, .. })), "{refused:?}");
         assert_eq!(world.links(id).unwrap().iter().next().unwrap().1, &poses[1], "nothing has changed");
 
         world.remove(id).unwrap();

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::alteration::ColorError;
-use crate::asset::AssetError;
+use crate::asset::{AssetError, ModelError};
 use crate::id::{AssetId, EntityId};
 use crate::scene::ShapeError;
 
@@ -69,6 +69,16 @@ pub enum WorldError {
     Bonded {
         /// The load.
         child: EntityId,
+    },
+    /// What a link would be drawn as is no surface.
+    #[error("link {link} of {id} cannot be drawn: {error}")]
+    LinkModel {
+        /// The entity.
+        id: EntityId,
+        /// Which of its links.
+        link: usize,
+        /// Why.
+        error: ModelError,
     },
     /// Links without a place, or places without a link.
     #[error("{poses} poses for the {forms} links of {id}: give one each")]

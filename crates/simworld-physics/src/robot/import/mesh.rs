@@ -12,11 +12,11 @@ use simworld_core::ops;
 use super::Reading;
 use super::xml::shortened;
 use crate::convert::{from_vector, to_vector};
-use crate::robot::RobotError;
 use crate::robot::description::Form;
 #[cfg(feature = "mjcf")]
 use crate::robot::description::MOST_CORNERS;
 use crate::robot::solids::volume;
+use crate::robot::{RobotError, Surface};
 
 /// A hull has at most the points that lie outermost in so many directions.
 const DIRECTIONS: usize = 128;
@@ -30,32 +30,23 @@ const MOST_APART: usize = 20_000;
 /// What is wrong with a path that leads elsewhere.
 const OUTSIDE: &str = "leads out of the folder of the robot: put the mesh into it and name it from there";
 
-/// A surface of triangles.
-struct Surface {
-    points: Vec<Vector3>,
-    triangles: Vec<[u32; 3]>,
-}
-
-/// The solids of a mesh, scaled; none, with a note, where it cannot be read for want of a folder or of a reader.
-pub(super) fn solids(
+/// The surface of a mesh, scaled; none, with a note, where it cannot be read for want of a folder or of a reader.
+pub(super) fn read(
     reading: &mut Reading<'_>,
     place: &str,
     name: &str,
     scale: [f64; 3],
-) -> Result<Vec<Form>, RobotError> {
+) -> Result<Option<Surface>, RobotError> {
     let Some(folder) = &reading.options.folder else {
-        reading.note(
-            place.to_owned(),
-            "the mesh is not read, since no folder is given: nothing meets this part",
-        );
-        return Ok(Vec::new());
+        reading.note(place.to_owned(), "the mesh is not read, since no folder is given");
+        return Ok(None);
     };
     let path = confined(folder, name)?;
     let kind = path.extension().and_then(|end| end.to_str()).unwrap_or_default().to_ascii_lowercase();
     if kind != "stl" && kind != "obj" {
-        let what = format!("meshes of the kind {:?} are not read: nothing meets this part", shortened(&kind));
+        let what = format!("meshes of the kind {:?} are not read", shortened(&kind));
         reading.note(place.to_owned(), what);
-        return Ok(Vec::new());
+        return Ok(None);
     }
     let limits = &reading.options.limits;
     let failed = |reason: String| RobotError::File { path: shortened(name), reason };
@@ -69,21 +60,31 @@ pub(super) fn solids(
     for point in &mut surface.points {
         *point = point.component_mul(&Vector3::from(scale));
     }
+    if scale.iter().product::<f64>() < 0.0 {
+        // A mirror turns the surface inside out.
+        surface.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    }
     if surface.points.iter().any(|point| point.iter().any(|part| part.abs() > 1e4 || part.is_nan())) {
         return Err(failed("has corners beyond 1e4 m: scale it".to_owned()));
     }
-    let forms = apart(&surface, limits.parts);
-    if forms.is_empty() {
-        reading.note(place.to_owned(), "the mesh is flat: nothing meets this part");
-    } else {
-        let what = format!(
-            "the mesh of {} triangles is met as {} convex solids",
-            surface.triangles.len(),
-            forms.len()
-        );
-        reading.note(place.to_owned(), what);
+    Ok(Some(surface))
+}
+
+/// The convex solids that are met in place of a surface; none, with a note, where it is flat or was not read.
+pub(super) fn solids(reading: &mut Reading<'_>, place: &str, surface: Option<&Surface>) -> Vec<Form> {
+    let forms = surface.map_or_else(Vec::new, |surface| apart(surface, reading.options.limits.parts));
+    match surface {
+        None => reading.note(place.to_owned(), "nothing meets this part"),
+        Some(_) if forms.is_empty() => {
+            reading.note(place.to_owned(), "the mesh is flat: nothing meets this part");
+        }
+        Some(Surface { triangles, .. }) => {
+            let (triangles, solids) = (triangles.len(), forms.len());
+            let what = format!("the mesh of {triangles} triangles is met as {solids} convex solids");
+            reading.note(place.to_owned(), what);
+        }
     }
-    Ok(forms)
+    forms
 }
 
 /// The file of a name in a folder; a name that leads out of it is refused before anything is looked at.

@@ -15,7 +15,8 @@
 //! The frame of a link has its origin at its first joint, where that of its body may have it elsewhere. A body with a free joint
 //! moves freely; any other one hangs on a link `world` that stands still. A joint without an actuator has no motor. Geoms of one
 //! robot meet as `contype`, `conaffinity`, `exclude` and the rule for parents and children say, unless their bodies are within one
-//! another where the joints rest, which the report then says. Tendons, equalities, sensors and other contact settings are passed over.
+//! another where the joints rest, which the report then says. A link is seen as its geoms of the groups that a viewer shows by itself, 0 to 2, meshes as their
+//! surfaces; one without any, as what is met of it. Textures, tendons, equalities, sensors and other contact settings are passed over.
 //! [`to_string`] writes a robot as such a file.
 
 use std::collections::BTreeMap;
@@ -217,11 +218,12 @@ impl Bodies<'_, '_, '_> {
         let mut link = LinkDescription::new(&Self::name_of(node, "body"));
         let mut masses = super::mjcf_read::Masses::default();
         // What is seen alone lends its colour to what is met.
-        let mut seen = None;
+        let (mut seen, mut visuals) = (None, Vec::new());
         for geom in children(node, "geom") {
             let class = self.settings.class(geom, class, "geom")?;
             let solid = super::mjcf_geoms::read(&class, self.settings, self.reading, link_from_body)?;
             masses.add(&solid);
+            visuals.extend(solid.visuals);
             if solid.meets {
                 link.solids.extend(solid.solids);
             } else {
@@ -229,6 +231,7 @@ impl Bodies<'_, '_, '_> {
             }
         }
         super::color::lend(&mut link.solids, seen);
+        super::see(&mut link, visuals);
         match child(node, "inertial") {
             Some(inertial) => self.settings.inertial(inertial, &mut link, link_from_body, self.reading)?,
             None => masses.give(&mut link),

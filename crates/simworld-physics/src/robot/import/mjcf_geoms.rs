@@ -12,12 +12,14 @@ use super::{Reading, WATER, color, mesh};
 use crate::convert::from_vector;
 use crate::robot::description::{Form, LinkSolid};
 use crate::robot::solids::solid;
-use crate::robot::{Kinds, RobotError};
+use crate::robot::{Kinds, LinkVisual, RobotError, Surface, VisualForm};
 
 /// A geom.
 #[derive(Default)]
 pub(super) struct Geom {
     pub(super) solids: Vec<LinkSolid>,
+    /// How it is seen; nothing where it is not.
+    pub(super) visuals: Vec<LinkVisual>,
     /// Whether others meet it.
     pub(super) meets: bool,
     /// What it looks like, if the file says so.
@@ -34,7 +36,7 @@ pub(super) fn read(
     link_from_body: &Pose,
 ) -> Result<Geom, RobotError> {
     let node = class.node;
-    let (forms, middle) = forms(class, settings, reading)?;
+    let Formed { forms, middle, surface } = forms(class, settings, reading)?;
     let pose = match middle {
         Some(pose) => pose,
         None => settings.pose(node, &|name| class.get(name))?,
@@ -54,6 +56,9 @@ pub(super) fn read(
     let kinds = Kinds { own: bits(class, "contype")?, met: bits(class, "conaffinity")? };
     let (meets, color) = (kinds.own != 0 || kinds.met != 0, color_of(class, settings)?);
     let mut geom = Geom { meets, color, ..Geom::default() };
+    if is_shown(class)? {
+        geom.visuals = visuals(forms.clone(), surface.as_ref(), &link_from_solid, color, reading);
+    }
     for (form, (shape, form_from_shape)) in &volumes {
         let properties = shape.mass_properties(density);
         let frame = link_from_solid * crate::convert::from_pose(form_from_shape);
@@ -68,6 +73,31 @@ pub(super) fn read(
         geom.solids.push(LinkSolid { form, link_from_solid, material, kinds, color });
     }
     Ok(geom)
+}
+
+/// Whether a viewer shows it without being asked to: groups 0 to 2, by its own default, and what is not clear.
+fn is_shown(class: &Class<'_, '_>) -> Result<bool, RobotError> {
+    let is_clear = match class.get("rgba") {
+        Some(text) => numbers_up_to(class.node, "rgba", text, 4)?.get(3).is_some_and(|cover| *cover <= 0.0),
+        None => false,
+    };
+    Ok(!is_clear && class.number("group")?.is_none_or(|group| group < 3.0))
+}
+
+/// What is seen of a geom: the surface of a mesh, or else its forms.
+fn visuals(
+    forms: Vec<Form>,
+    surface: Option<&Surface>,
+    link_from_geom: &Pose,
+    color: Option<[f32; 3]>,
+    reading: &mut Reading<'_>,
+) -> Vec<LinkVisual> {
+    if let Some(seen) = surface.and_then(|surface| reading.surface(surface, link_from_geom, color)) {
+        return vec![seen];
+    }
+    let link_from_visual = *link_from_geom;
+    let solid = |form| LinkVisual { form: VisualForm::Solid(form), link_from_visual, color };
+    forms.into_iter().map(solid).collect()
 }
 
 /// Bits as an integer of 32 bits, which may be written with a sign; 1 by default.
@@ -100,12 +130,21 @@ fn material(class: &Class<'_, '_>) -> Result<Material, RobotError> {
     Ok(nearest.copied().unwrap_or_default())
 }
 
-/// The forms of a geom, and where they sit if that follows from its ends.
+/// The forms of a geom.
+#[derive(Default)]
+struct Formed {
+    forms: Vec<Form>,
+    /// Where they sit, if that follows from its ends.
+    middle: Option<Pose>,
+    /// What is seen of them, if that is a mesh.
+    surface: Option<Surface>,
+}
+
 fn forms(
     class: &Class<'_, '_>,
     settings: &Settings<'_>,
     reading: &mut Reading<'_>,
-) -> Result<(Vec<Form>, Option<Pose>), RobotError> {
+) -> Result<Formed, RobotError> {
     let node = class.node;
     let size = some(class, "size")?;
     let at = |index: usize| {
@@ -132,10 +171,10 @@ fn forms(
             reading.note(place(node), "an ellipsoid is met as the box around it");
             Form::Box { size: Vector3::new(at(0)?, at(1)?, at(2)?) * 2.0 }
         }
-        "mesh" => return Ok((meshes(class, settings, reading)?, None)),
+        "mesh" => return meshes(class, settings, reading),
         "plane" => {
             reading.note(place(node), "a plane of a robot is passed over");
-            return Ok((Vec::new(), None));
+            return Ok(Formed::default());
         }
         other => {
             let what = format!("the type {:?}", shortened(other));
@@ -144,7 +183,7 @@ fn forms(
         }
     };
     check_sizes(class, &form)?;
-    Ok((vec![form], middle.map(|(pose, _)| pose)))
+    Ok(Formed { forms: vec![form], middle: middle.map(|(pose, _)| pose), surface: None })
 }
 
 /// Sizes of nothing are refused here, before a mass is reckoned from them.
@@ -166,7 +205,7 @@ fn meshes(
     class: &Class<'_, '_>,
     settings: &Settings<'_>,
     reading: &mut Reading<'_>,
-) -> Result<Vec<Form>, RobotError> {
+) -> Result<Formed, RobotError> {
     let node = class.node;
     let name = class.get("mesh").unwrap_or_default();
     let Some(asset) = settings.mesh_assets.get(name) else {
@@ -175,14 +214,16 @@ fn meshes(
     };
     let scale = settings.class(*asset, None, "mesh")?.exactly::<3>("scale")?.unwrap_or([1.0; 3]);
     let Some(file) = asset.attribute("file") else {
-        return corners(*asset, scale, reading);
+        return Ok(Formed { forms: corners(*asset, scale, reading)?, ..Formed::default() });
     };
     let path = if settings.meshes.is_empty() {
         file.to_owned()
     } else {
         format!("{}/{file}", settings.meshes.trim_end_matches('/'))
     };
-    mesh::solids(reading, &place(node), &path, scale)
+    let surface = mesh::read(reading, &place(node), &path, scale)?;
+    let forms = mesh::solids(reading, &place(node), surface.as_ref());
+    Ok(Formed { forms, middle: None, surface })
 }
 
 /// A mesh whose corners stand in the file, which is met as the hull of these.

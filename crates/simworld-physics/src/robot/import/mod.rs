@@ -23,11 +23,16 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
+use simworld_core::geometry::Pose;
+
 use super::description::Base;
-use super::{RobotDescription, RobotError};
+use super::{LinkDescription, LinkVisual, RobotDescription, RobotError, Surface, VisualForm};
 
 /// As dense as water, kg/m³.
 pub(super) const WATER: f64 = 1000.0;
+
+/// Triangles that are seen of one robot at most.
+const MOST_SEEN: usize = 1_000_000;
 
 /// How a file is read.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,11 +107,13 @@ impl fmt::Display for Note {
 struct Reading<'a> {
     options: &'a ImportOptions,
     report: Vec<Note>,
+    /// Triangles of surfaces that are seen, so far.
+    seen: usize,
 }
 
 impl<'a> Reading<'a> {
     fn new(options: &'a ImportOptions) -> Self {
-        Self { options, report: Vec::new() }
+        Self { options, report: Vec::new(), seen: 0 }
     }
 
     fn note(&mut self, place: String, what: impl Into<String>) {
@@ -114,6 +121,20 @@ impl<'a> Reading<'a> {
         if self.report.len() < 1000 {
             self.report.push(Note { place, what: what.into() });
         }
+    }
+
+    /// A surface as it is seen; none where nothing of it could be, or where a file shows more than anybody could look at.
+    fn surface(
+        &mut self,
+        surface: &Surface,
+        link_from_surface: &Pose,
+        color: Option<[f32; 3]>,
+    ) -> Option<LinkVisual> {
+        self.seen += surface.triangles.len();
+        if self.seen > MOST_SEEN {
+            return None;
+        }
+        LinkVisual::of_surface(surface, link_from_surface, color)
     }
 
     /// Gives a link without mass that of its solids, as dense as water.
@@ -131,6 +152,33 @@ impl<'a> Reading<'a> {
             link.center = center / mass;
             self.note(place(), format!("has no mass: {mass:.3} kg are reckoned from its solids, as dense as water, and its inertia as that of a ball"));
         }
+    }
+}
+
+/// Shows a link as these, each once. Where they are its solids one by one, these take their colours, and that is all.
+fn see(link: &mut LinkDescription, all: Vec<LinkVisual>) {
+    let mut visuals: Vec<LinkVisual> = Vec::with_capacity(all.len());
+    for seen in all {
+        let is_it = |other: &&mut LinkVisual| {
+            other.form == seen.form && other.link_from_visual == seen.link_from_visual
+        };
+        match visuals.iter_mut().find(is_it) {
+            Some(other) => other.color = other.color.or(seen.color),
+            None => visuals.push(seen),
+        }
+    }
+    let pairs = || link.solids.iter().zip(&visuals);
+    let is_same = visuals.len() == link.solids.len()
+        && pairs().all(|(solid, seen)| {
+            let is_form = matches!(&seen.form, VisualForm::Solid(form) if *form == solid.form);
+            is_form && seen.link_from_visual == solid.link_from_solid
+        });
+    if is_same {
+        for (solid, seen) in link.solids.iter_mut().zip(&visuals) {
+            solid.color = seen.color.or(solid.color);
+        }
+    } else {
+        link.visuals = visuals;
     }
 }
 

@@ -20,9 +20,10 @@
 //! # Ok::<(), simworld_physics::RobotError>(())
 //! ```
 //!
-//! A first link that is called `world` stands still, any other moves freely, unless the options say otherwise. A link has the colour of
-//! its first visual that says one; how visuals look otherwise, transmissions, sensors and what simulators add are passed over. Links that no joint holds together meet one another, unless they
-//! are within one another where the joints rest, which the report then says.
+//! A first link that is called `world` stands still, any other moves freely, unless the options say otherwise. A link is seen as its
+//! visuals, in their colours; one of which any cannot be drawn (another kind of mesh than STL and OBJ, no folder), or without any, is seen as what is
+//! met of it, in the colour of its first visual that says one. Textures, transmissions, sensors and what simulators add are passed over. Links that
+//! no joint holds together meet one another, unless they are within one another where the joints rest, which the report then says.
 
 use std::collections::BTreeMap;
 
@@ -32,9 +33,9 @@ use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Vector3};
 
 use super::xml::{child, children, exactly, number, parse, place, required, shortened};
-use super::{ImportOptions, Imported, Reading, color, finish, mesh};
+use super::{ImportOptions, Imported, Reading, color, finish, mesh, see};
 use crate::robot::description::{Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid};
-use crate::robot::{Kinds, RobotDescription, RobotError};
+use crate::robot::{Kinds, LinkVisual, RobotDescription, RobotError, Surface, VisualForm};
 
 /// Reads a robot from the text of a file.
 ///
@@ -107,13 +108,19 @@ fn color_in(material: Node<'_, '_>) -> Result<Option<[f32; 3]>, RobotError> {
 
 /// The colour of what is seen of a link: of its first visual that has one.
 fn seen_color(link: Node<'_, '_>, palette: &Palette<'_>) -> Result<Option<[f32; 3]>, RobotError> {
-    for material in children(link, "visual").filter_map(|visual| child(visual, "material")) {
-        let named = || material.attribute("name").and_then(|name| palette.get(name)).copied();
-        if let Some(color) = color_in(material)?.or_else(named) {
+    for visual in children(link, "visual") {
+        if let Some(color) = color_of(visual, palette)? {
             return Ok(Some(color));
         }
     }
     Ok(None)
+}
+
+/// The colour of a visual, if it says one.
+fn color_of(visual: Node<'_, '_>, palette: &Palette<'_>) -> Result<Option<[f32; 3]>, RobotError> {
+    let Some(material) = child(visual, "material") else { return Ok(None) };
+    let named = || material.attribute("name").and_then(|name| palette.get(name)).copied();
+    Ok(color_in(material)?.or_else(named))
 }
 
 fn link(
@@ -129,12 +136,14 @@ fn link(
             mend: "say what form it has",
         })?;
         let link_from_solid = origin(collision)?;
-        for form in forms(geometry, reading)? {
+        let (forms, _) = forms(geometry, reading, Use::Met)?;
+        for form in forms {
             let (material, kinds, color) = (Material::Plastic, Kinds::default(), None);
             link.solids.push(LinkSolid { form, link_from_solid, material, kinds, color });
         }
     }
     color::lend(&mut link.solids, seen_color(node, palette)?);
+    see(&mut link, visuals(node, palette, reading)?);
     match child(node, "inertial") {
         Some(inertial) => weigh(&mut link, inertial, reading)?,
         None => reading.weigh(&mut link, &|| place(node)),
@@ -174,7 +183,48 @@ fn weigh(
     Ok(())
 }
 
-fn forms(geometry: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Vec<Form>, RobotError> {
+/// What is seen of a link; nothing if any of it cannot be drawn, so that the link is seen as what is met.
+fn visuals(
+    link: Node<'_, '_>,
+    palette: &Palette<'_>,
+    reading: &mut Reading<'_>,
+) -> Result<Vec<LinkVisual>, RobotError> {
+    let mut all = Vec::new();
+    for visual in children(link, "visual") {
+        let Some(geometry) = child(visual, "geometry") else { continue };
+        let color = color_of(visual, palette)?;
+        let link_from_visual = origin(visual)?;
+        // What is only looked at makes no robot unfit.
+        let seen = forms(geometry, reading, Use::Seen).unwrap_or_else(|error| {
+            reading.note(place(visual), error.to_string());
+            (Vec::new(), None)
+        });
+        let solid = |form| LinkVisual { form: VisualForm::Solid(form), link_from_visual, color };
+        let seen = match seen {
+            (mut forms, None) => forms.pop().map(solid),
+            (_, Some(surface)) => reading.surface(&surface, &link_from_visual, color),
+        };
+        let Some(seen) = seen.filter(|seen| seen.check(&|| place(visual)).is_ok()) else {
+            reading.note(place(visual), "is not drawn: the link is seen as what is met of it");
+            return Ok(Vec::new());
+        };
+        all.push(seen);
+    }
+    Ok(all)
+}
+
+/// What a form is read for: a mesh becomes solids where it is met, and is a surface where it is seen.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Use {
+    Met,
+    Seen,
+}
+
+fn forms(
+    geometry: Node<'_, '_>,
+    reading: &mut Reading<'_>,
+    purpose: Use,
+) -> Result<(Vec<Form>, Option<Surface>), RobotError> {
     let Some(node) = geometry.children().find(Node::is_element) else {
         let what = "a form".to_owned();
         let mend = "give <box>, <cylinder>, <sphere>, <capsule> or <mesh>";
@@ -187,7 +237,7 @@ fn forms(geometry: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Vec<Form>,
             mend: "give it in metres",
         })
     };
-    Ok(vec![match node.tag_name().name() {
+    let form = match node.tag_name().name() {
         "box" => {
             let size = exactly::<3>(node, "size", Some(required(node, "size", "give three edges")?))?;
             Form::Box { size: size.unwrap_or_default().into() }
@@ -198,14 +248,19 @@ fn forms(geometry: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Vec<Form>,
         "mesh" => {
             let name = required(node, "filename", "name the file of the mesh")?;
             let scale = exactly::<3>(node, "scale", node.attribute("scale"))?.unwrap_or([1.0; 3]);
-            return mesh::solids(reading, &place(node), name, scale);
+            let surface = mesh::read(reading, &place(node), name, scale)?;
+            return Ok(match purpose {
+                Use::Met => (mesh::solids(reading, &place(node), surface.as_ref()), None),
+                Use::Seen => (Vec::new(), surface),
+            });
         }
         other => {
             let what = format!("the form <{}>", shortened(other));
             let mend = "give <box>, <cylinder>, <sphere>, <capsule> or <mesh>";
             return Err(RobotError::Unsupported { place: place(node), what, mend });
         }
-    }])
+    };
+    Ok((vec![form], None))
 }
 
 fn kind(node: Node<'_, '_>) -> Result<JointKind, RobotError> {
