@@ -178,7 +178,9 @@ fn in_turns<A, B>(
                 if which == 0 {
                     several.iter_mut().try_for_each(|one| (0..STRIDE).try_for_each(|_| ours.1(one)))
                 } else {
-                    others.iter_mut().for_each(|other| (0..STRIDE).for_each(|_| plain.1(other)));
+                    for other in &mut others {
+                        (0..STRIDE).for_each(|_| plain.1(other));
+                    }
                     Ok(())
                 }
             })?;

@@ -47,10 +47,14 @@ proptest! {
         which in 0..3,
     ) {
         let mut text = if which == 0 { LEG_URDF.to_owned() } else { LEG_MJCF.to_owned() };
+        if which == 0 {
+            let seen = r#"<visual><origin xyz="0 0 0.1"/><geometry><box size="0.1 0.2 0.1"/></geometry></visual></link>"#;
+            text = text.replace("</link>", seen);
+        }
         if which == 2 {
             let mesh = r#"<asset><mesh name="m" scale="1 1 2" vertex="0 0 0 0.1 0 0 0 0.1 0 0 0 0.1"/></asset>"#;
             text = text.replace("<worldbody>", &format!("{mesh}<worldbody>"));
-            text = text.replace(r#"<geom size="0.04""#, r#"<geom type="mesh" mesh="m""#);
+            text = text.replace(r#"<geom size="0.04""#, r#"<geom type="mesh" mesh="m" group="1""#);
         }
         for (from, to) in cuts {
             // A value, from quote to quote; now and then more than that.

@@ -57,7 +57,7 @@ pub(super) fn read(
     let (meets, color) = (kinds.own != 0 || kinds.met != 0, color_of(class, settings)?);
     let mut geom = Geom { meets, color, ..Geom::default() };
     if is_shown(class)? {
-        geom.visuals = visuals(forms.clone(), surface.as_ref(), &link_from_solid, color, reading);
+        geom.visuals = visuals(class, (&forms, surface.as_ref()), &link_from_solid, color, reading);
     }
     for (form, (shape, form_from_shape)) in &volumes {
         let properties = shape.mass_properties(density);
@@ -84,20 +84,23 @@ fn is_shown(class: &Class<'_, '_>) -> Result<bool, RobotError> {
     Ok(!is_clear && class.number("group")?.is_none_or(|group| group < 3.0))
 }
 
-/// What is seen of a geom: the surface of a mesh, or else its forms.
+/// What is seen of a geom: the surface of a mesh, or else its forms; nothing of it where that is none. What is only looked at makes no robot
+/// unfit.
 fn visuals(
-    forms: Vec<Form>,
-    surface: Option<&Surface>,
+    class: &Class<'_, '_>,
+    (forms, surface): (&[Form], Option<&Surface>),
     link_from_geom: &Pose,
     color: Option<[f32; 3]>,
     reading: &mut Reading<'_>,
 ) -> Vec<LinkVisual> {
-    if let Some(seen) = surface.and_then(|surface| reading.surface(surface, link_from_geom, color)) {
-        return vec![seen];
-    }
     let link_from_visual = *link_from_geom;
-    let solid = |form| LinkVisual { form: VisualForm::Solid(form), link_from_visual, color };
-    forms.into_iter().map(solid).collect()
+    let solid = |form: &Form| LinkVisual { form: VisualForm::Solid(form.clone()), link_from_visual, color };
+    let seen = match surface.and_then(|surface| reading.surface(surface, link_from_geom, color)) {
+        Some(seen) => vec![seen],
+        None => forms.iter().map(solid).collect(),
+    };
+    let is_fit = seen.iter().all(|seen| seen.check(&|| place(class.node)).is_ok());
+    if is_fit { seen } else { Vec::new() }
 }
 
 /// Bits as an integer of 32 bits, which may be written with a sign; 1 by default.
