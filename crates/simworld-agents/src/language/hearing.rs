@@ -117,10 +117,12 @@ fn without_company(lexemes: &mut Vec<Lexeme>, text: &str) {
         let begin = (0..at).rev().find(|at| word(&lexemes[*at]).is_none()).map_or(0, |mark| mark + 1);
         let said = &lexemes[begin..at];
         let kept = said.iter().filter_map(word).any(|word| KEPT.contains(&word.as_str()));
-        let quoted = super::dialects::in_quotes(text, lexemes[at].start)
-            || super::dialects::in_single_quotes(text, lexemes[at].start);
+        let quoted = || {
+            let from = lexemes[at].start;
+            super::dialects::in_quotes(text, from) || super::dialects::in_single_quotes(text, from)
+        };
         let Some(words) =
-            longest_phrase(&lexemes[at..], WITH_ME).filter(|_| !kept && !said.is_empty() && !quoted)
+            longest_phrase(&lexemes[at..], WITH_ME).filter(|_| !kept && !said.is_empty() && !quoted())
         else {
             at += 1;
             continue;

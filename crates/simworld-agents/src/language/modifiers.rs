@@ -234,8 +234,8 @@ impl Parser<'_> {
         let found = longest(self.rest(), PAINTS)?;
         let is_word = matches!(self.rest().first()?.token, Token::Word(_));
         // "The tallest lime" is a tree.
-        let is_sort = self.names.sort_of_asset(self.rest()).is_some_and(|sort| sort.words == found.1)
-            && super::lexicon::category(&self.rest()[found.1..]).is_none();
+        let is_sort = category(&self.rest()[found.1..]).is_none()
+            && self.names.sort_of_asset(self.rest()).is_some_and(|sort| sort.words == found.1);
         (is_word && !is_sort && fits(self.rest(), "dark").is_none()).then_some(found)
     }
 }

@@ -74,12 +74,15 @@ impl Parser<'_> {
     /// "Point at both trees, the maple first", "look at the boats, starting with the red one": which of several comes first.
     pub(super) fn one_first(&mut self, clauses: &mut Vec<Clause>) -> bool {
         let start = self.at;
+        if clauses.last_mut().and_then(Clause::plural).is_none() {
+            return false;
+        }
         let Some(mut several) = clauses.last().cloned() else { return false };
         let comma = usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]));
         // "..., nearest first" is the order in which they are done anyway.
         let usual =
             super::lexicon::longest_phrase(&self.rest()[comma..], super::politeness::MANNERS).is_some();
-        if several.plural().is_none() || usual {
+        if usual {
             return false;
         }
         self.at += comma;
