@@ -1,5 +1,8 @@
 //! Orders that are done over again: "do that twice", "then do it again", "once more", "do the same with the statue".
 
+use simworld_core::action::StepDirection;
+use simworld_core::seam::PlanError;
+
 use super::clause::{Clause, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
@@ -58,7 +61,7 @@ impl Parser<'_> {
             && let Some((times, count)) = numbers::times(&self.rest()[again..])
             && longest_phrase(&self.rest()[again + count..], &["more"]).is_none()
         {
-            let all = self.says_one_of(again, &["all", "whole", "that", "this", "repeat"])
+            let all = self.says_one_of(again, &["all", "whole", "that", "this", "repeat", "so"])
                 || self.rest()[..again].iter().any(|lexeme| lexeme.token == Token::Break);
             let both = self.says_one_of(again, &["both", "lot", "everything", "these"]);
             self.at += again + count;
@@ -182,6 +185,15 @@ impl Parser<'_> {
         }
         self.at = start;
         false
+    }
+
+    /// After "keep": an order that goes on.
+    pub(super) fn keep(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let mut body = self.order()?;
+        if let [Clause::Step { direction: StepDirection::Forward, .. }] = body[..] {
+            body = vec![Clause::Forward];
+        }
+        Ok(body)
     }
 }
 

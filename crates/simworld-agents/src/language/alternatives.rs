@@ -58,6 +58,10 @@ impl Parser<'_> {
         let start = self.at;
         let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
         self.at += usize::from(comma && longest_phrase(&self.rest()[1..], &["or"]).is_some());
+        if comma && self.peeks("or else") {
+            self.at = start; // "..., or else to the clinic" is what is done otherwise
+            return Ok(());
+        }
         if !self.eat_any(&["or", "or else", "or maybe", "or perhaps", "or otherwise"]) {
             self.at = start;
             return Ok(());

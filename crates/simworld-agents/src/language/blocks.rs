@@ -1,6 +1,5 @@
 //! Blocks at the beginning of a statement: conditions, repetitions, and what is done before or after something else.
 
-use simworld_core::action::StepDirection;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Test};
@@ -310,7 +309,7 @@ impl Parser<'_> {
             }
             let later = self.statement()?;
             self.skip_joints();
-            let mut clauses = self.statement()?;
+            let mut clauses = self.orders(Extent::Group)?;
             clauses.extend(later);
             return Ok(Some(clauses));
         }
@@ -376,7 +375,8 @@ impl Parser<'_> {
         self.skip_joints();
         let mut otherwise = Vec::new();
         let negative = matches!(test, Test::Not(_));
-        if self.eat_any(ELSE) || self.denied() || negative && self.affirmed() {
+        if self.contrary_follows(&test) || self.eat_any(ELSE) || self.denied() || negative && self.affirmed()
+        {
             self.skip_joints();
             otherwise = match self.at_another_pace(&then) {
                 Some(again) => again,
@@ -460,9 +460,12 @@ impl Parser<'_> {
                 }
             }
             self.at = end;
-            let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
-            clauses.extend(then);
-            return Ok(clauses);
+            // "When you've got the letter, go to the clinic": nobody else brings it.
+            let first = match test {
+                Test::Holds(Some(what)) => Clause::Take { what, to: None, grip: super::clause::Grip::Lift },
+                test => Clause::Until { test, body: Vec::new() },
+            };
+            return Ok([first].into_iter().chain(then).collect());
         }
         self.at = start;
         self.eat_any(&[
@@ -486,14 +489,5 @@ impl Parser<'_> {
             return Err(self.not_understood("say when in words such as \"when the light is green\""));
         }
         self.statement()
-    }
-
-    /// After "keep": an order that goes on.
-    fn keep(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let mut body = self.order()?;
-        if let [Clause::Step { direction: StepDirection::Forward, .. }] = body[..] {
-            body = vec![Clause::Forward];
-        }
-        Ok(body)
     }
 }

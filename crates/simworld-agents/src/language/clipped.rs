@@ -69,7 +69,7 @@ impl Parser<'_> {
         None
     }
 
-    fn walks(&self) -> bool {
+    pub(super) fn walks(&self) -> bool {
         self.view.scene.entity(self.view.who).is_some_and(|me| !me.kind.is_vehicle())
     }
 

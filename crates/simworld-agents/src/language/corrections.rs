@@ -4,6 +4,7 @@ use simworld_core::seam::PlanError;
 
 use super::blocks::UNTIL;
 use super::clause::{Clause, Pace, Test};
+use super::deferred::first_and_later;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
@@ -23,7 +24,8 @@ const CORRECTIONS: &Phrases = &Phrases::of(&[
     "not that one", "not this one", "not that", "not there", "not him", "not her", "not those", "not them", "well make it", "make it", "no make it", "i take that back", "my mistake", "or perhaps better",
 ]);
 /// What is not to be done, behind what is.
-const INSTEAD: &[&str] = &["instead of", "rather than", "and not", "not", "in place of", "as opposed to"];
+const INSTEAD: &[&str] =
+    &["instead of", "rather than", "and not", "but not", "not", "in place of", "as opposed to"];
 
 impl Parser<'_> {
     /// "Strike that; ...", "no, no, ...": what takes back what was said in another sentence.
@@ -140,9 +142,20 @@ impl Parser<'_> {
         self.eat_any(NEGATIONS);
         let later = self.order();
         if let Ok(later) = later
-            && self.eat_any(UNTIL)
-            && let Ok(test) = self.test()
+            && (self.eat_any(UNTIL) || self.eat_any(&["before", "unless", "without first", "without"]))
         {
+            if let Some(first) = self.deed_done() {
+                return Ok(first_and_later(first, later));
+            }
+            let unless = self.word_before() == "unless";
+            let holds = matches!(self.word_before(), "until" | "till" | "til" | "before") || unless;
+            let Some(test) = self.test().ok().filter(|_| holds) else {
+                self.at = start;
+                return Err(self.not_understood("that says what not to do: say what to do"));
+            };
+            if unless {
+                return Ok(vec![Clause::If { test, then: later, otherwise: Vec::new() }]);
+            }
             let mut clauses = vec![match test {
                 Test::Near { what, .. } => {
                     Clause::Go { to: what, side: None, pace: Pace::Usual, within: None }

@@ -125,6 +125,7 @@ impl Parser<'_> {
                 || self.farthest_behind(reference, depth)?
                 || self.place_in_row(reference)
                 || self.eat_any(COUNTED)
+                || matches!(reference.choice, Choice::Nth(_)) && self.eat_any(&["from here", "from you"])
                 || self.sold_there(reference)?
                 || self.spared(reference, depth)
                 || self.stands(reference, depth)?
@@ -197,14 +198,24 @@ impl Parser<'_> {
     /// "... that is the shortest".
     fn most_behind(&mut self, reference: &mut Reference) -> bool {
         let start = self.at;
-        self.eat_any(&["the"]);
-        if let Some(((measure, most), words)) = longest(self.rest(), MOSTS).filter(|_| self.at > start) {
+        let the = self.eat_any(&["the"]);
+        if let Some(((measure, most), words)) = longest(self.rest(), MOSTS)
+            && (the || self.clause_ends_after(words))
+        {
             self.at += words;
             reference.choose(Choice::Most(measure, most));
             return true;
         }
         self.at = start;
         false
+    }
+
+    /// Whether the clause ends behind so many words.
+    fn clause_ends_after(&mut self, words: usize) -> bool {
+        self.at += words;
+        let ends = self.ends_clause();
+        self.at -= words;
+        ends
     }
 
     fn use_behind(&mut self, reference: &mut Reference) -> bool {
@@ -450,7 +461,14 @@ impl Parser<'_> {
         let between = self.eat_any(&["between", "in between", "halfway between", "midway between"]);
         let of = !between
             && relation.is_none()
-            && self.eat_any(&["of", "belonging to", "to"])
+            && self.eat_any(&[
+                "of",
+                "belonging to",
+                "belongs to",
+                "that belongs to",
+                "which belongs to",
+                "to",
+            ])
             && self.of_follows(start);
         if !between && !of && relation.is_none() {
             self.at = start;

@@ -107,6 +107,24 @@ fn word_of(lexeme: &Lexeme) -> Option<&str> {
     }
 }
 
+/// The same of single quotes, which stand at the ends of words where an apostrophe stands within.
+pub(super) fn in_single_quotes(text: &str, at: usize) -> bool {
+    let before = text.get(..at).unwrap_or_default();
+    let mut inside = false;
+    let mut last = ' ';
+    for letter in before.chars().chain([' ']) {
+        if last == '\'' && inside && !letter.is_alphanumeric() {
+            inside = false;
+        } else if letter == '\'' && !last.is_alphanumeric() && !inside {
+            inside = true;
+            last = ' ';
+            continue;
+        }
+        last = letter;
+    }
+    inside
+}
+
 /// Whether a place in the text stands between quotation marks.
 pub(super) fn in_quotes(text: &str, at: usize) -> bool {
     let before = text.get(..at).unwrap_or_default();

@@ -283,7 +283,7 @@ impl<'a> Draft<'a> {
             }
             _ => {}
         }
-        let spoken_of = self.view.it;
+        let (spoken_of, delivered) = (self.view.it, self.delivered);
         let then = self.block(then)?;
         let it = std::mem::replace(&mut self.view.it, spoken_of);
         // What else is done starts from where the first would have.
@@ -291,7 +291,9 @@ impl<'a> Draft<'a> {
             (held, carried, posture, beside, there);
         (self.view.from, self.view.heading) = (from, heading);
         self.view.told.take();
+        let delivered = std::mem::replace(&mut self.delivered, delivered);
         let otherwise = self.block(otherwise)?;
+        self.delivered = self.delivered.or(delivered);
         self.beside = None;
         self.view.it = it;
         self.push(PlanStep::If { condition, then, otherwise });

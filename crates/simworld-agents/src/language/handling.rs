@@ -105,7 +105,17 @@ impl Parser<'_> {
         if let Some(clauses) = self.bought_rather(&what, start)? {
             return Ok(clauses);
         }
-        self.eat_any(&["up", "along", "with you", "over", "across", "back", "off"]);
+        self.eat_any(&[
+            "up",
+            "along",
+            "with you",
+            "over",
+            "across",
+            "back",
+            "off",
+            "off the ground",
+            "off the floor",
+        ]);
         let mut what = what;
         if what.relation.is_none() && self.eat_any(&["from"]) {
             what.relation = Some(Stands::Of(Box::new(self.reference(0)?)));
@@ -268,6 +278,10 @@ impl Parser<'_> {
             return self.purchase(goods, somebody);
         }
         self.at = start;
+        // "Pass me the umbrella": nobody else is to have it.
+        if self.view.speaker.is_none() && self.eat_any(&["me", "us"]) && !self.ends_clause() {
+            return Ok(vec![Clause::Take { what: self.reference(0)?, to: None, grip: Grip::Lift }]);
+        }
         let first = self.reference(0)?;
         if let Some((seconds, words)) = numbers::duration(self.rest())
             .filter(|(seconds, words)| first.target == Target::It && *words > 1 && *seconds > 0.0)
@@ -290,40 +304,6 @@ impl Parser<'_> {
             return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
         }
         Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
-    }
-
-    /// "Give a wave to Ben", "give three waves to Anna".
-    pub(super) fn gesture_to(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        let start = self.at;
-        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
-        self.at += number.map_or(0, |(_, count)| count);
-        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
-        let waves = number.is_some()
-            && self.eat_any(&["wave", "waves", "wave of your hand"])
-            && self.eat_any(&["to", "at", "for", "over to", "towards"]);
-        let Some((number, _)) = number.filter(|_| waves) else {
-            self.at = start;
-            return Ok(None);
-        };
-        let wave = Clause::Wave { to: self.reference(0)? };
-        let times = number as u32;
-        Ok(Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }]))
-    }
-
-    /// "Give Ben a wave".
-    pub(super) fn gesture(&mut self, to: &Reference) -> Option<Vec<Clause>> {
-        let start = self.at;
-        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
-        self.at += number.map_or(0, |(_, count)| count);
-        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
-        if number.is_none() || !self.eat_any(&["wave", "waves", "wave of your hand"]) {
-            self.at = start;
-            return None;
-        }
-        self.eat_any(&["from me", "from us", "for me"]);
-        let wave = Clause::Wave { to: to.clone() };
-        let times = number.map_or(1, |(number, _)| number as u32);
-        Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])
     }
 
     /// "Throw the ball to Anna", "toss Anna the ball": only at somebody, since what is thrown anywhere else is dropped there.

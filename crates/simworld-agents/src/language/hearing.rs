@@ -35,6 +35,7 @@ const STATES: &Phrases = &Phrases::of(&[
 /// The tokens of what is said to somebody of that name.
 pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
     let mut lexemes = lex_speech(text);
+    super::slips::small_slips(&mut lexemes);
     without_abbreviations(&mut lexemes);
     in_plain_words(&mut lexemes, text);
     without_example_words(&mut lexemes);
@@ -45,7 +46,7 @@ pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
         without_commas_in(&mut lexemes, &[first, "i meant"]);
     }
     with_dashes(&mut lexemes, text);
-    without_company(&mut lexemes);
+    without_company(&mut lexemes, text);
     if let Some(name) = name {
         drop_address(&mut lexemes, &lex(name));
     }
@@ -53,7 +54,7 @@ pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
 }
 
 /// "Walk with me to the well", "go to the museum with me": who speaks goes along, and leads nowhere. "Come with me" alone is following.
-fn without_company(lexemes: &mut Vec<Lexeme>) {
+fn without_company(lexemes: &mut Vec<Lexeme>, text: &str) {
     #[rustfmt::skip]
     const MOVES: &[&str] = &[
         "come", "walk", "go", "run", "ride", "drive", "stroll", "sit", "stand", "wait", "rest", "travel", "head", "hurry", "move", "stay", "cycle", "march",
@@ -116,7 +117,12 @@ fn without_company(lexemes: &mut Vec<Lexeme>) {
         let begin = (0..at).rev().find(|at| word(&lexemes[*at]).is_none()).map_or(0, |mark| mark + 1);
         let said = &lexemes[begin..at];
         let kept = said.iter().filter_map(word).any(|word| KEPT.contains(&word.as_str()));
-        let Some(words) = longest_phrase(&lexemes[at..], WITH_ME).filter(|_| !kept && !said.is_empty())
+        let quoted = || {
+            let from = lexemes[at].start;
+            super::dialects::in_quotes(text, from) || super::dialects::in_single_quotes(text, from)
+        };
+        let Some(words) =
+            longest_phrase(&lexemes[at..], WITH_ME).filter(|_| !kept && !said.is_empty() && !quoted())
         else {
             at += 1;
             continue;

@@ -104,14 +104,15 @@ pub(super) fn without_remarks<'a>(
     let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
     let mut last = end;
     while let Some(mark) = lexemes[..last].iter().rposition(is_mark).filter(|mark| *mark > 0)
-        && (is_idle(&lexemes[mark + 1..last], names) || is_idle_question(&lexemes[mark + 1..last], names))
+        && (is_idle(&lexemes[mark + 1..last], names, true)
+            || is_idle_question(&lexemes[mark + 1..last], names))
     {
         last = mark;
     }
     let mut first = 0;
     while let Some(mark) = lexemes[first..last].iter().position(ends_remark).map(|mark| first + mark)
         && mark + 1 < last
-        && is_idle(&lexemes[first..mark], names)
+        && is_idle(&lexemes[first..mark], names, false)
     {
         first = mark + 1;
     }
@@ -126,8 +127,9 @@ fn ends_remark(lexeme: &Lexeme) -> bool {
     is_mark(lexeme) || lexeme.token == Token::Word("so".to_owned())
 }
 
-/// Whether a clause tells something, and nothing of what is here or of what is to be done.
-fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
+/// Whether a clause tells something, and nothing of what is here or of what is to be done; `behind` an order it may also tell what
+/// was, since nothing takes that up.
+fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
     let says = |from: usize| longest_phrase(&clause[from..], STATES).is_some();
     let others = longest_phrase(clause, DETERMINERS).unwrap_or(0);
     let of_somebody = longest_phrase(clause, SOMEBODY).or(longest_phrase(clause, CALLS)).is_some()
@@ -137,7 +139,8 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
         || (1..clause.len().min(4)).any(says)
         || asides::says_what_is(clause);
     let unwanted = longest_phrase(clause, UNWANTED).is_some();
-    let plans = own_plans(clause);
+    let plans = own_plans(clause) || behind && needs_it(clause);
+    let past = behind && tells_what_was(clause);
     let asks = longest_verb(clause).is_some()
         || filler(clause).is_some() && !of_somebody
         || !unwanted && !plans && !requests::beginnings(clause).is_empty();
@@ -149,8 +152,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
             || longest(rest, PAINTS).is_some()
             || number(rest).is_some_and(|(number, _)| (number - 1.0).abs() > f64::EPSILON)
                 && !(of_somebody && tells_time(rest))
-            || category(rest).is_some()
-            || names.exact(rest).is_some()
+            || !past && (category(rest).is_some() || names.exact(rest).is_some())
     };
     clause.len() >= 2
         && clause.iter().all(|lexeme| matches!(lexeme.token, Token::Word(_) | Token::Number(_)))
@@ -165,11 +167,111 @@ fn own_plans(clause: &[Lexeme]) -> bool {
     let verb = &clause[words..];
     !verb.is_empty()
         && (longest_verb(verb).is_none()
+            || sets_off(verb)
             || longest_phrase(
                 verb,
                 &["make", "know", "find out", "see if", "see whether", "see how", "see what"],
             )
             .is_some())
+}
+
+/// "Leave soon", "be off": what whoever speaks is about to do.
+fn sets_off(verb: &[Lexeme]) -> bool {
+    const LEAVE: &[&str] = &[
+        "leave",
+        "go",
+        "be off",
+        "get going",
+        "hurry",
+        "run",
+        "be there",
+        "be home",
+        "get home",
+        "go home",
+        "get back",
+        "head off",
+        "set off",
+    ];
+    const SOON: &[&str] = &[
+        "soon", "now", "early", "shortly", "tomorrow", "tonight", "today", "already", "in", "a", "minute",
+        "moment", "right", "away", "quite",
+    ];
+    longest_phrase(verb, LEAVE).is_some_and(|words| {
+        verb.len() > words && verb[words..].iter().all(|lexeme| SOON.contains(&word_of(lexeme)))
+    })
+}
+
+impl super::parser::Parser<'_> {
+    /// Passes "..., I need them for the paper" behind an order, with the mark before it; whether there was any.
+    pub(super) fn skip_need(&mut self) -> bool {
+        let start = self.at;
+        let marked = self.rest().first().is_some_and(is_mark);
+        let end = self.mark_from(start + usize::from(marked));
+        let said = &self.lexemes[(start + usize::from(marked)).min(end)..end];
+        let named = |at: usize| {
+            category(&said[at..]).is_some()
+                || self.names.exact(&said[at..]).is_some()
+                || self.names.goods(&said[at..]).is_some()
+        };
+        let needs = marked && needs_it(said) && !(0..said.len()).any(named);
+        if needs {
+            self.at = end;
+        }
+        needs
+    }
+}
+
+/// "I need them for the paper": what for.
+fn needs_it(clause: &[Lexeme]) -> bool {
+    const NEED: &Phrases = &Phrases::of(&[
+        "i need",
+        "we need",
+        "i want",
+        "we want",
+        "they need",
+        "i could use",
+        "i use",
+        "we use",
+        "ill need",
+        "well need",
+    ]);
+    let pronoun = |words: usize| {
+        longest_phrase(&clause[words..], &["it", "them", "that", "those", "one", "this"])
+            .map(|more| words + more)
+    };
+    let behind = longest_phrase(clause, NEED).and_then(pronoun);
+    behind.is_some_and(|words| {
+        longest_phrase(&clause[words..], &["for", "to", "by", "before", "tonight", "today", "tomorrow"])
+            .is_some()
+    })
+}
+
+/// "I booked a table", "she broke her leg": what was, behind which nothing is asked for.
+fn tells_what_was(clause: &[Lexeme]) -> bool {
+    const ASKED: &[&str] = &[
+        "wanted",
+        "needed",
+        "asked",
+        "said",
+        "told",
+        "meant",
+        "called",
+        "ordered",
+        "preferred",
+        "liked",
+        "promised",
+    ];
+    const DID: &[&str] = &[
+        "booked", "left", "lost", "bought", "found", "saw", "met", "broke", "forgot", "took", "made",
+        "heard", "read", "spent", "hurt", "got", "had", "came", "went", "fell", "slept", "ate", "drank",
+        "won", "paid", "grew", "knew",
+    ];
+    let words = longest_phrase(
+        clause,
+        &["i", "we", "he", "she", "they", "my wife", "my husband", "my friend", "somebody", "someone"],
+    );
+    let did = words.and_then(|words| clause.get(words)).map_or("", word_of);
+    !ASKED.contains(&did) && (DID.contains(&did) || did.len() > 4 && did.ends_with("ed"))
 }
 
 /// "..., is it on?": nobody answers that, and nothing is done by it.

@@ -289,7 +289,7 @@ pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
 /// Words between a noun and how it stands to another.
 #[rustfmt::skip]
 pub(super) const COPULAS: &Phrases = &Phrases::of(&[
-    "that is", "thats", "which is", "that stands", "which stands", "standing", "located", "placed", "who is",
+    "that is", "thats", "which is", "that grows", "which grows", "growing", "that stands", "which stands", "standing", "located", "placed", "who is",
     "whos", "who stands", "sitting", "is", "parked", "that are", "which are", "right", "thats standing",
     "that sits", "which sits", "over", "just", "lying", "thats lying", "that lies", "which lies", "waiting",
     "that waits", "who is standing", "who is sitting", "who waits", "is standing", "is sitting", "is lying",

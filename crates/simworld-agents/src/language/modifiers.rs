@@ -4,6 +4,7 @@ use super::clause::{Choice, Reference, Side, Stands};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{DETERMINERS, FARTHEST, MOSTS, NEAREST, category, fits, longest, longest_phrase};
 use super::numbers;
+use super::paint::PAINTS;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::reference::DOOR_STATES;
@@ -226,6 +227,16 @@ impl Parser<'_> {
         let written: Option<&Lexeme> = self.lexemes.get(at);
         let first = written.and_then(|lexeme| self.words[lexeme.start..].chars().next());
         at > 0 && first.is_some_and(char::is_uppercase)
+    }
+
+    /// A colour at the cursor that says what a thing is like and not what a light shows.
+    pub(super) fn peek_paint(&self) -> Option<(super::paint::Paint, usize)> {
+        let found = longest(self.rest(), PAINTS)?;
+        let is_word = matches!(self.rest().first()?.token, Token::Word(_));
+        // "The tallest lime" is a tree.
+        let is_sort = category(&self.rest()[found.1..]).is_none()
+            && self.names.sort_of_asset(self.rest()).is_some_and(|sort| sort.words == found.1);
+        (is_word && !is_sort && fits(self.rest(), "dark").is_none()).then_some(found)
     }
 }
 

@@ -11,7 +11,7 @@ use super::numbers;
 use super::orders::PHOTOS;
 use super::parser::Parser;
 use super::phrases::Phrases;
-use super::verbs::{Verb, longest_verb};
+use super::verbs::Verb;
 
 const WAVES: &[&str] =
     &["waves", "wave", "big wave", "friendly wave", "wave of the hand", "waves of the hand"];
@@ -25,26 +25,6 @@ const TURNS: &[(&[&str], Turn)] = &[
     (&["straight", "straight on", "straight ahead", "straight over", "straight across", "straight through"],
     Turn::Straight),
 ];
-
-/// What heads a list of places.
-#[rustfmt::skip]
-const TOURS: &Phrases = &Phrases::of(&[
-    "waypoints", "route", "your route", "the route", "stops", "round trip", "tour", "path", "itinerary",
-    "your itinerary", "the tour", "rounds", "round", "circuit", "trip", "lap", "course", "destinations",
-    "the stops", "places to visit", "stations", "checkpoints",
-]);
-/// What says when it is the turn of a place, before it.
-#[rustfmt::skip]
-const IN_TURN: &Phrases = &Phrases::of(&[
-    "first", "first to", "then", "then to", "next", "finally", "second", "third", "last", "and then",
-    "and finally",
-]);
-/// The same behind it.
-#[rustfmt::skip]
-const TURNS_BEHIND: &Phrases = &Phrases::of(&[
-    "first", "second", "third", "fourth", "next", "last", "after that", "afterwards", "to begin with",
-    "to end with",
-]);
 
 /// How welcome something would be, behind it.
 const WELCOME: &Phrases = &Phrases::of(&[
@@ -64,6 +44,10 @@ const WELCOME: &Phrases = &Phrases::of(&[
     "would be appreciated",
     "would be handy",
     "would help",
+    "wouldnt go amiss",
+    "would not go amiss",
+    "wouldnt hurt",
+    "wouldnt be bad",
 ]);
 /// When nobody is told to get it now.
 const NOT_NOW: &Phrases = &Phrases::of(&[
@@ -377,72 +361,6 @@ impl Parser<'_> {
         Ok(Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]))
     }
 
-    /// "Waypoints: the fountain, the hydrant, the sign", "hydrant first, cone second, crate last": where one goes in turn.
-    pub(super) fn itinerary(&mut self) -> Option<Vec<Clause>> {
-        const FEWEST: usize = 2;
-        let headed = self.eat_any(TOURS) && self.mark() == Some(':');
-        self.at += usize::from(headed);
-        let mut clauses = Vec::new();
-        let mut sorted = headed;
-        let mut end = self.at;
-        loop {
-            let at = end;
-            sorted |= self.eat_any(IN_TURN);
-            self.eat_any(&["to", "on to", "over to"]);
-            let Some(stop) = self.stop_on_the_way(sorted) else {
-                self.at = at;
-                break;
-            };
-            clauses.push(stop);
-            sorted |= self.eat_any(TURNS_BEHIND);
-            end = self.at;
-            let joined = matches!(self.mark(), Some(',' | ';')) || matches!(self.mark(), Some('.')) && sorted;
-            self.at += usize::from(joined);
-            if !(joined | self.eat_any(&["and", "then", "and then", "to"])) {
-                break;
-            }
-            self.eat_any(&["and", "then"]);
-            if self.at >= self.lexemes.len() || longest_verb(self.rest()).is_some() {
-                self.at = end;
-                break;
-            }
-        }
-        let taken_up = self.rest().iter().any(|lexeme| {
-            matches!(&lexeme.token, Token::Word(word) if ["it", "them", "there", "one", "each", "both", "he", "she", "him", "her"].contains(&word.as_str()))
-        });
-        (clauses.len() >= FEWEST && (headed || !taken_up) && (self.ends_clause() || self.joined_here()))
-            .then_some(clauses)
-    }
-
-    fn joined_here(&self) -> bool {
-        longest_phrase(self.rest(), &["and", "then", "so"]).is_some()
-    }
-
-    /// A place on a list of places; somebody only where it is plain that it is one.
-    fn stop_on_the_way(&mut self, sorted: bool) -> Option<Clause> {
-        let go = |to| Clause::Go { to, side: None, pace: Pace::Usual, within: None };
-        if self.eat_any(&[
-            "back here",
-            "back to where you are now",
-            "back to where you are",
-            "back to the start",
-            "back again",
-            "back",
-        ]) && self.ends_clause()
-        {
-            return Some(go(super::clause::Reference::to(Target::Here, "back".to_owned())));
-        }
-        if longest_verb(self.rest()).is_some() && super::lexicon::category(self.rest()).is_none()
-            || self.goods().is_some()
-        {
-            return None;
-        }
-        let to = self.reference(0).ok().filter(|to| !to.text.ends_with("one"))?;
-        let named =
-            matches!(to.target, Target::Named(_) | Target::Any(_) | Target::Id(_) | Target::Point { .. });
-        (named && (sorted || !self.is_somebody(&to))).then(|| go(to))
-    }
-
     /// "1. ... 2. ...": the number of an item of a list.
     pub(super) fn item_mark(&self) -> usize {
         let step = usize::from(longest_phrase(self.rest(), &["step", "number", "task", "item"]).is_some());
@@ -454,6 +372,15 @@ impl Parser<'_> {
             ] if number.fract() == 0.0 && (1.0..20.0).contains(number) => step + 2,
             _ => 0,
         }
+    }
+
+    /// "Second stall on the right" is no second order.
+    pub(super) fn counts_a_thing(&self) -> bool {
+        let is_second = ["second", "fourth"].iter().any(|word| self.peeks(word));
+        let noun = self.rest().get(1..).unwrap_or_default();
+        is_second
+            && (super::lexicon::category(noun).is_some()
+                || noun.first().is_some_and(|first| self.names.sort(&first.token).is_some()))
     }
 
     /// "Step two metres to the left" is no second step of a list.

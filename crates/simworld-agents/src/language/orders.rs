@@ -137,6 +137,9 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         self.at = counted;
+        if let Some(step) = self.bare_step(here) {
+            return Ok(vec![step]);
+        }
         // "... and then on to the taxi" goes on going, whatever was done in between.
         let moves = longest_phrase(
             self.rest(),
@@ -227,6 +230,7 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         match verb {
+            Verb::Go if self.word_before() == "yourself" && self.peeks("on") => self.sit(),
             Verb::Go | Verb::Run if self.moves_thing(start) => self.drop(Manner::Deliver),
             Verb::Go => self.go(Pace::Usual, start),
             Verb::Run => self.go(Pace::Run, start),
@@ -289,7 +293,7 @@ impl Parser<'_> {
             Verb::Alight => Ok(self.alight_at()),
             Verb::Step => self.step().map(|step| vec![step]),
             Verb::Reverse => self.reverse().map(|step| vec![step]),
-            Verb::Turn => self.turn().map(|turn| vec![turn]),
+            Verb::Turn => self.turn_somewhere(),
             Verb::Look => self.look().map(|look| vec![look]),
             Verb::Face => self.face().map(|face| vec![face]),
             Verb::Point => self.point_out().map(|clause| vec![clause]),

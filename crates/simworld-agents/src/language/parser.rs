@@ -200,7 +200,11 @@ impl<'a> Parser<'a> {
         if self.skip_purpose() {
             return Ok(false);
         }
-        let _ = self.skip_portions() || self.skip_outcome() || self.skip_use() || self.skip_threat();
+        let _ = self.skip_need()
+            || self.skip_portions()
+            || self.skip_outcome()
+            || self.skip_use()
+            || self.skip_threat();
         self.skip_fillers();
         self.at += requests::coda(self.rest());
         self.skip_manner();
@@ -270,6 +274,7 @@ impl<'a> Parser<'a> {
     pub(super) fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         let begin = self.at;
         self.skip_fillers();
+        self.skip_origin();
         let polite = requests::polite_condition(self.rest());
         if polite > 0 {
             self.at += polite;
@@ -320,9 +325,11 @@ impl<'a> Parser<'a> {
         let mut found = None;
         for rule in [
             Self::instead,
+            Self::only_then,
             Self::needed_there,
             Self::place_meant,
             Self::fronted_place,
+            Self::numbered_itinerary,
             Self::in_nouns,
             Self::clipped,
             Self::which_one,
@@ -351,17 +358,7 @@ impl<'a> Parser<'a> {
         self.nominal().ok().flatten()
     }
 
-    /// "Carol wants a tea, get one": a topic, since what follows takes it up.
-    fn wants_one(&mut self) -> Option<Vec<Clause>> {
-        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
-        let after = self.rest().iter().position(is_mark)?;
-        let takes_up = self.rest()[after..].iter().any(|lexeme| {
-            matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them", "one", "some"].contains(&word.as_str()))
-        });
-        if takes_up { self.on_topic() } else { None }
-    }
-
-    fn on_topic(&mut self) -> Option<Vec<Clause>> {
+    pub(super) fn on_topic(&mut self) -> Option<Vec<Clause>> {
         let mut clauses = self.topic()?;
         clauses.extend(self.statement_here()?);
         Some(clauses)
@@ -450,7 +447,7 @@ impl<'a> Parser<'a> {
                 matches!(self.rest().first(), Some(l) if matches!(l.token, Token::Comma | Token::Break));
             if mark {
                 self.at += 1;
-            } else if self.counts_a_step() || !self.eat_joint() {
+            } else if self.counts_a_thing() || self.counts_a_step() || !self.eat_joint() {
                 return self.at > start;
             }
         }

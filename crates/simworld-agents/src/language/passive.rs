@@ -35,7 +35,11 @@ pub(super) fn put_verbs_first(lexemes: &mut Vec<Lexeme>) {
     let mut start = 0;
     while start < lexemes.len() {
         let end = lexemes[start..].iter().position(is_mark).map_or(lexemes.len(), |count| start + count);
-        if let Some(active) = active(&lexemes[start..end]) {
+        // "Should the door be open, shut it" asks nothing, and says when.
+        let conditional = is_word(&lexemes[start], "should")
+            && matches!(lexemes.get(end), Some(Lexeme { token: Token::Comma, .. }))
+            && end + 1 < lexemes.len();
+        if let Some(active) = active(&lexemes[start..end]).filter(|_| !conditional) {
             let count = active.len();
             lexemes.splice(start..end, active);
             start += count;

@@ -165,7 +165,8 @@ pub(super) const FILLERS: &[&str] = &[
     "and hurry", "and hurry up", "and be quick", "and be quick about it", "by any chance", "would you like to", "would you care to", "would you love to", "quick question",
     "when it suits you", "whenever it suits you", "if it suits you", "can i ask a favour", "could i ask a favour", "may i ask a favour", "can i ask you a favour",
     "could i ask you a favour", "can you do something for me", "could you do something for me", "can you help me", "could you help me", "be a sweetheart",
-    "be an angel", "be a star", "be a love", "be a darling", "be a hero", "before anything else",
+    "be an angel", "be a star", "be a love", "be a darling", "be a hero", "before anything else", "before you do anything else", "before doing anything else",
+    "ahead of anything else", "first and foremost", "sorry to be a bother", "stretch your legs and", "sorry to be a nuisance", "beg your pardon", "begging your pardon",
     "if it is not out of your way", "if it is not far out of your way", "if that is not out of your way",
 ];
 

@@ -152,7 +152,9 @@ impl Parser<'_> {
             return false;
         };
         let whom = &self.lexemes[self.at..end];
+        let is_way = whom.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["left", "right", "north", "south", "east", "west", "front", "back"].contains(&word.as_str())));
         let elsewhere = own
+            && !is_way
             && !whom.is_empty()
             && (0..whom.len()).all(|at| {
                 category(&whom[at..]).is_none()

@@ -95,6 +95,7 @@ impl Parser<'_> {
         mut whom: Option<Reference>,
     ) -> Result<Vec<Clause>, PlanError> {
         let mut at = None;
+        let mut several = Vec::new();
         let mut times = goods.times;
         let whom_wished = self.wished_by.take();
         self.wished = false;
@@ -105,7 +106,13 @@ impl Parser<'_> {
                 if comma && longest_phrase(&self.rest()[1..], &["at", "from", "in"]).is_some() {
                     (self.at, at) = (self.at + 1, None); // "buy a soup there, at the tearoom"
                 }
+            } else if several.is_empty()
+                && let Some(all) =
+                    if whom.is_none() { self.for_several() } else { self.each_of_them(whom.as_ref()) }
+            {
+                several = all;
             } else if whom.is_none()
+                && several.is_empty()
                 && let Some(receiver) = self.for_whom()
             {
                 whom = Some(receiver);
@@ -133,6 +140,9 @@ impl Parser<'_> {
                 times = 2;
             } else {
                 self.wanted = Some(Goods { name: goods.name.clone(), times: 1 });
+                if !several.is_empty() {
+                    return Ok(super::shares::shared_out(&goods, times, at.as_ref(), several));
+                }
                 let whom = whom.or(whom_wished);
                 return Ok(vec![Clause::Buy { goods: goods.name, times, at, whom }]);
             }

@@ -4,6 +4,41 @@ use super::lexer::{Lexeme, Token};
 use super::numbers;
 use super::verbs;
 
+/// "Walk to the willlow", "..., than sit down", "go to the well an wait": what no word is written like, or stands for another.
+pub(super) fn small_slips(lexemes: &mut [Lexeme]) {
+    for at in 0..lexemes.len() {
+        let begins = at > 0 && matches!(lexemes[at - 1].token, Token::Comma | Token::Break);
+        let rest = &lexemes[at + 1..];
+        let verb_follows = || verbs::longest_verb(rest).is_some();
+        let (is_and, is_then) = match &lexemes[at].token {
+            Token::Word(word) => (
+                word == "an" && at > 0 && consonant_follows(rest) && verb_follows(),
+                word == "than" && begins && verb_follows(),
+            ),
+            _ => continue,
+        };
+        if is_and || is_then {
+            lexemes[at].token = Token::Word(if is_and { "and" } else { "then" }.to_owned());
+        } else if let Token::Word(word) = &mut lexemes[at].token
+            && word.as_bytes().windows(3).any(|three| three[0] == three[1] && three[1] == three[2])
+        {
+            let mut kept = String::with_capacity(word.len());
+            for letter in word.chars() {
+                let doubled = kept.ends_with(&format!("{letter}{letter}"));
+                if !doubled || !letter.is_alphabetic() {
+                    kept.push(letter);
+                }
+            }
+            *word = kept;
+        }
+    }
+}
+
+/// Whether no "an" stands before the next word.
+fn consonant_follows(rest: &[Lexeme]) -> bool {
+    matches!(rest.first(), Some(Lexeme { token: Token::Word(word), .. }) if !word.starts_with(['a', 'e', 'i', 'o', 'u', 'h']))
+}
+
 /// "Go bye one": a word that sounds like a verb where an order begins and a quantity follows.
 pub(super) fn sound_words(lexemes: &mut [Lexeme]) {
     const SAME: &[(&str, &str)] = &[

@@ -31,7 +31,12 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
         at += 1;
         let Token::Word(word) = &lexemes[here].token else { continue };
         let is_short = word.len() < 3 || word.chars().count() < 3;
-        if is_short || lexemes[here].lemma.is_some() || is_known(word) || names.has_word(word) || known(word)
+        if is_short
+            || lexemes[here].lemma.is_some()
+            || is_known(word)
+            || names.has_word(word)
+            || known(word)
+            || names.sort_of_asset(&lexemes[here..=here]).is_some()
         {
             continue;
         }

@@ -82,6 +82,11 @@ impl Parser<'_> {
         if let Some(clauses) = self.short_of()? {
             return Ok(clauses);
         }
+        if self.peeks_halfway()
+            && let Some(clauses) = self.special_way(Pace::Usual)?
+        {
+            return Ok(clauses);
+        }
         if self.eat_any(&[
             "at",
             "by",
@@ -92,6 +97,9 @@ impl Parser<'_> {
             "in front of",
             "close to",
             "alongside",
+            "under",
+            "underneath",
+            "beneath",
         ]) {
             let to = self.reference(0)?;
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
@@ -222,11 +230,20 @@ impl Parser<'_> {
             self.at = number_at;
             return Err(self.not_understood("wait for more than 0 and at most 86400 seconds"));
         }
-        if clauses.is_empty() {
-            self.rests_there(&mut clauses)?; // "rest for a minute on the blue bench"
+        if clauses.is_empty() && !self.rests_there(&mut clauses)? && clauses.is_empty() {
+            self.waits_by(&mut clauses)?; // "rest for a minute on the blue bench"
         }
         clauses.push(Clause::Wait { seconds });
         Ok(clauses)
+    }
+
+    /// "Wait twenty seconds at the clock": where.
+    fn waits_by(&mut self, clauses: &mut Vec<Clause>) -> Result<(), PlanError> {
+        if self.eat_any(&["at", "by", "near", "beside", "next to", "outside", "in front of"]) {
+            let to = self.reference(0)?;
+            clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
+        }
+        Ok(())
     }
 
     /// "Rest on the red bench", "wait in the library": where, and whether that is all.

@@ -4,6 +4,7 @@ use simworld_core::seam::PlanError;
 
 use super::blocks::{IF, UNLESS, UNTIL, WHILE};
 use super::clause::{Clause, Pace, Target, Test};
+use super::deferred::first_and_later;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::numbers;
@@ -12,7 +13,6 @@ use super::phrases::Phrases;
 use super::politeness::MANNERS;
 use super::repeats::{body_of, over_and_over, repeat};
 use super::requests;
-use super::verbs::longest_verb;
 
 /// Before where one goes in the end.
 pub(super) const ON_THE_WAY: &Phrases = &Phrases::of(&[
@@ -53,6 +53,8 @@ impl Parser<'_> {
             let goes_on = comma && self.tail_follows();
             if self.done_again(clauses, whole, group)
                 || self.done_to_another(clauses, group)
+                || self.each_time(clauses)
+                || self.one_first(clauses)
                 || self.but_first(clauses, comma)?
             {
             } else if let Some((times, count)) =
@@ -280,6 +282,11 @@ impl Parser<'_> {
             "only once",
             "but only once",
         ]) {
+            if let Some(first) = self.deed_done() {
+                let later = clauses.pop().into_iter().collect();
+                clauses.extend(first_and_later(first, later));
+                return Ok(true);
+            }
             let test = self.test()?;
             clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
             return Ok(true);
@@ -291,7 +298,17 @@ impl Parser<'_> {
         let spoken_of = about_it.and_then(|last| last.about().or_else(|| last.handled())).cloned();
         let otherwise = self.alternative()?;
         clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
-        clauses.push(Clause::If { test, then: last.into_iter().collect(), otherwise });
+        let then: Vec<Clause> = last.into_iter().collect();
+        // "Go to the clinic if it's raining, and to the diner if it isn't".
+        if let Some(Clause::If { test: before, otherwise: other, .. }) = clauses.last_mut()
+            && otherwise.is_empty()
+            && other.is_empty()
+            && super::contraries::is_contrary(before, &test)
+        {
+            *other = then;
+            return Ok(true);
+        }
+        clauses.push(Clause::If { test, then, otherwise });
         Ok(true)
     }
 
@@ -427,9 +444,11 @@ impl Parser<'_> {
             self.at += words;
             return Ok(true);
         }
+        let do_so = longest_phrase(self.rest(), &["but before you do", "but before you do that"]).is_some();
         if !self.eat_any(AFTER) {
             return Ok(false);
         }
+        self.at += usize::from(do_so && matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]));
         let last = clauses.len() - 1;
         if let Some((seconds, count)) = numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0) {
             self.at += count;
@@ -459,34 +478,6 @@ impl Parser<'_> {
         let spoken_of = clauses[last].about().filter(|_| there).cloned().map(|what| Clause::Mention { what });
         clauses.splice(last..last, spoken_of.into_iter().chain(earlier));
         Ok(true)
-    }
-
-    /// "Meet me at the well in five minutes": what is waited for first.
-    fn delayed(&mut self, clauses: &mut Vec<Clause>) -> bool {
-        let start = self.at;
-        let time = if self.eat_any(&["in", "in about"]) { numbers::duration(self.rest()) } else { None };
-        if let Some((seconds, words)) = time.filter(|(seconds, words)| *seconds > 0.0 && *words > 1) {
-            self.at += words;
-            self.eat_any(&["time", "from now"]);
-            if self.ends_clause() {
-                clauses.insert(clauses.len() - 1, Clause::Wait { seconds });
-                return true;
-            }
-        }
-        self.at = start;
-        false
-    }
-
-    /// What was done before: an order, or a place alone.
-    fn earlier(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let start = self.at;
-        if longest_verb(self.rest()).is_none()
-            && let Ok(to) = self.reference(0)
-        {
-            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
-        }
-        self.at = start;
-        self.order()
     }
 }
 

@@ -4,10 +4,8 @@ use simworld_core::net::Aspect;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Target, Test};
-use super::lexer::Token;
-use super::lexicon::{fits, longest, longest_phrase};
+use super::lexicon::{longest, longest_phrase};
 use super::numbers;
-use super::paint::PAINTS;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::verbs::longest_verb;
@@ -294,7 +292,9 @@ impl Parser<'_> {
         self.eat_any(&["sitting", "seated", "sits", "sat", "already sitting"]);
         let said = self.eat_any(&["on", "in", "using", "uses", "occupying", "has taken", "has"]);
         let taken = if said {
-            Test::InUse(self.reference(0)?)
+            let seat = self.reference(0)?;
+            self.adverbs();
+            Test::InUse(seat)
         } else if self.lexemes[self.at - 1].lemma.as_deref() == Some("sit")
             && self.eat_any(&["there", "there already"])
         {
@@ -476,13 +476,6 @@ impl Parser<'_> {
         let (shows, count) = longest(&self.rest()[words..], ASPECTS)?;
         self.at += words + count;
         Some(Test::Light { light: Some(what.clone()), shows })
-    }
-
-    /// A colour at the cursor that says what a thing is like and not what a light shows.
-    pub(super) fn peek_paint(&self) -> Option<(super::paint::Paint, usize)> {
-        let found = longest(self.rest(), PAINTS)?;
-        let is_word = matches!(self.rest().first()?.token, Token::Word(_));
-        (is_word && fits(self.rest(), "dark").is_none()).then_some(found)
     }
 }
 

@@ -17,7 +17,7 @@ use super::verbs::longest_verb;
 const INTRODUCTIONS: &Phrases = &Phrases::of(&[
     "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
     "you can find", "you can get", "you can buy", "they sell", "they have", "there should be", "there must be", "there might be", "there used to be",
-    "know", "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
+    "know", "there goes", "here comes", "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
     "what is", "wheres", "where is", "which is", "who is", "whos", "id like", "i would like", "id love",
     "i want", "i need", "i fancy", "i could do with", "we need", "we want", "here is", "heres", "that is",

@@ -1,6 +1,7 @@
 //! Orders as statements of who gets what, and where it goes: "Hana needs the letter", "the parcel goes to the museum".
 
 use super::clause::{Clause, Manner, Pace, Reference, Spot};
+use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
 use super::phrases::Phrases;
@@ -276,5 +277,15 @@ impl Parser<'_> {
         self.eat_any(GOES);
         let at = Some(self.reference(0).ok()?);
         Some(vec![Clause::Drop { what: Some(what), at, manner: Manner::Deliver }])
+    }
+
+    /// "Carol wants a tea, get one": a topic, since what follows takes it up.
+    pub(super) fn wants_one(&mut self) -> Option<Vec<Clause>> {
+        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+        let after = self.rest().iter().position(is_mark)?;
+        let takes_up = self.rest()[after..].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them", "one", "some"].contains(&word.as_str()))
+        });
+        if takes_up { self.on_topic() } else { None }
     }
 }

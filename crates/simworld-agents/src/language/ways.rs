@@ -337,8 +337,13 @@ impl Parser<'_> {
             "and go via",
             "by going via",
         ]) {
-            let over = Clause::Go { to: self.reference(0)?, side: None, pace, within: None };
-            return Ok(vec![over, go]);
+            let over = |to| Clause::Go { to, side: None, pace, within: None };
+            let mut ways = vec![over(self.reference(0)?)];
+            while let Some(to) = self.another_on_the_way() {
+                ways.push(over(to));
+            }
+            ways.push(go);
+            return Ok(ways);
         }
         if let Some(buy) = self.for_goods(&go) {
             return Ok(vec![buy]);

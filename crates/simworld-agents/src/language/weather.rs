@@ -19,10 +19,10 @@ enum Sky {
 /// As what "it is" has behind it.
 #[rustfmt::skip]
 const STATES: &[(&[&str], Sky)] = &[
-    (&["raining", "rainy", "wet", "pouring", "pouring down", "drizzling", "raining outside", "bucketing down"],
+    (&["raining", "rainy", "wet", "starts to rain", "starts raining", "begins to rain", "begins raining", "rains", "pouring", "pouring down", "drizzling", "raining outside", "bucketing down"],
     Sky::Rain),
     (&["snowing", "snowy", "snowing outside"], Sky::Snow),
-    (&["dark", "night", "nighttime", "night time", "dark outside", "after dark", "after sunset", "pitch dark",
+    (&["dark", "gets dark", "becomes dark", "night", "nighttime", "night time", "dark outside", "after dark", "after sunset", "pitch dark",
     "dusk"], Sky::Dark),
     (&["light", "day", "daytime", "bright", "daylight", "morning", "light outside", "day time"], Sky::Light),
     (&["dry"], Sky::Dry),
@@ -148,7 +148,7 @@ impl Parser<'_> {
     /// Behind "it".
     fn it_does(&mut self, is: bool) -> Option<(Sky, bool)> {
         self.adverbs();
-        self.eat_any(&["has been"]);
+        self.eat_any(&["has been", "should"]);
         let not = self.eat_any(&["does not", "doesnt", "has not", "hasnt"]);
         self.adverbs();
         if is && self.eat_any(ENDS) {

@@ -13,13 +13,27 @@ use simworld_core::value::Value;
 
 /// The cities in which people speak to a walker.
 pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
-/// Those, the town in which they speak to a driver, and ten that came later.
-pub(crate) const PLACES: [&str; 14] = [
-    "harbour", "oldtown", "campus", "town", "park", "station", "depot", "market", "airport", "campsite",
-    "lakeside", "zoo", "beach", "farm",
+/// Those, the town in which they speak to a driver, and twelve that came later.
+pub(crate) const PLACES: [&str; 16] = [
+    "harbour",
+    "oldtown",
+    "campus",
+    "town",
+    "park",
+    "station",
+    "depot",
+    "market",
+    "airport",
+    "campsite",
+    "lakeside",
+    "zoo",
+    "beach",
+    "farm",
+    "fairground",
+    "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 14] = [
+const SETS: [&str; 16] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -34,6 +48,8 @@ const SETS: [&str; 14] = [
     "twelfth",
     "thirteenth",
     "fourteenth",
+    "fifteenth",
+    "sixteenth",
 ];
 
 /// One thing that is said, and what it means.

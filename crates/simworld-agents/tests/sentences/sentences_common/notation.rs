@@ -31,9 +31,15 @@ fn steps(steps: &[PlanStep], city: &City) -> String {
 fn goal(goal: &Goal, city: &City) -> String {
     match goal {
         Goal::Entity(id) => city.key(*id),
-        Goal::Point(point) => format!("({:.1}, {:.1})", point.x + 0.0, point.y + 0.0),
+        Goal::Point(point) => format!("({}, {})", tenths(point.x), tenths(point.y)),
         other => format!("{other:?}"),
     }
+}
+
+/// With one decimal; what is a little below zero is zero.
+fn tenths(coordinate: f64) -> String {
+    let text = format!("{coordinate:.1}");
+    if text == "-0.0" { "0.0".to_owned() } else { text }
 }
 
 fn step(step: &PlanStep, city: &City) -> String {
