@@ -11,6 +11,7 @@ use simworld_core::net::Aspect;
 use super::claims::Claims;
 use super::clock::{Clock, Moment};
 use super::clusters::{TOO_LONG, Wish};
+use super::lookahead::BEFORE_LINE;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
 use super::sirens::{SEES as SIREN_SEES, may_pass_red};
@@ -428,16 +429,17 @@ pub(super) fn is_room(
     vehicle: &Vehicle,
 ) -> bool {
     let (inbound, room) = (junctions.inbound(lane), f64::from(ticks(vehicle, config)) / TICKS + SETTLES);
+    // The first stands at the line, without a gap.
+    let length = tracks.length[lane as usize] + config.vehicle_type(vehicle.row).driver.gap - BEFORE_LINE;
     if last.is_none() {
         // An empty lane takes one vehicle even if it is longer than the lane.
-        return inbound <= 0.0 || inbound + room <= tracks.length[lane as usize];
+        return inbound <= 0.0 || inbound + room <= length;
     }
     // What moves will have moved on by the time one gets there.
     let moves = if last.v > STANDING { last.v * 2.0 } else { 0.0 };
     // Unless all of them fit there when they stand, one's rear may stay in the junction; in a roundabout who goes first does not
     // stand, and its lanes are too short for two.
-    let fits =
-        || tracks.is_in_ring(lane) || storage.taken(lane) + inbound + room <= tracks.length[lane as usize];
+    let fits = || tracks.is_in_ring(lane) || storage.taken(lane) + inbound + room <= length;
     last.rear - inbound >= room || (last.rear + moves - inbound >= room && fits())
 }
 
