@@ -7,6 +7,8 @@ use crate::geometry::Point2;
 
 /// Room before and behind the stretch, m.
 const ROOM: f64 = 0.3;
+/// How often the stretch between two points is halved to find where it begins: to some centimetres.
+const HALVINGS: u32 = 5;
 /// A rear so far beyond the beginning of a common end leaves room to follow it there, m.
 const FOLLOW: f64 = 2.0;
 /// A path that bends less than this is as good as straight, m.
@@ -98,16 +100,41 @@ impl WayTrace {
         };
         let first = self.points.iter().position(is_near);
         // The point before the first that is near and the one behind the last are not.
-        let enter = first.map_or(0.0, |first| self.points[first.saturating_sub(1)].0);
+        let enter = first.map_or(0.0, |first| match first.checked_sub(1) {
+            Some(before) => between(self.points[before], self.points[first], is_near),
+            None => self.points[first].0,
+        });
         let leave = if ends == Ends::Together {
             f32::INFINITY
         } else {
             let last = self.points.iter().rposition(is_near);
-            let behind = last.and_then(|last| self.points.get(last + 1));
-            (behind.map_or(self.length, |point| point.0) + ROOM) as f32
+            let leaves = last.and_then(|last| {
+                let behind = self.points.get(last + 1)?;
+                Some(between(*behind, self.points[last], is_near))
+            });
+            (leaves.unwrap_or(self.length) + ROOM) as f32
         };
         Zone { enter: (enter - ROOM).max(0.0) as f32, leave }
     }
+}
+
+/// The station between a point that is not near and one that is, at which a path is about to be near, m.
+fn between(
+    (mut far, far_point): (f64, Point2),
+    (mut near, near_point): (f64, Point2),
+    is_near: impl Fn(&(f64, Point2)) -> bool,
+) -> f64 {
+    let (from, span, step) = (far, near - far, near_point - far_point);
+    for _ in 0..HALVINGS {
+        let middle = (far + near) * 0.5;
+        let point = far_point + step * ((middle - from) / span);
+        if is_near(&(middle, point)) {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    far
 }
 
 /// The corners of a path that are needed to stay near it.
@@ -134,4 +161,39 @@ fn square_to_piece(point: &Point2, piece: &[Point2]) -> f64 {
     let square = step.norm_squared();
     let along = if square > 0.0 { (to_point.dot(&step) / square).clamp(0.0, 1.0) } else { 0.0 };
     (to_point - step * along).norm_squared()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::net::{NetworkConfig, RoadNetwork, StreetPlan, Turn, polyline};
+
+    #[test]
+    fn a_zone_begins_and_ends_where_the_paths_come_near() {
+        let network = RoadNetwork::derive(&StreetPlan::crossroads(100.0), &NetworkConfig::default());
+        let network = network.expect("it is a plan");
+        let mut met = 0;
+        for own in network.connections.iter().filter(|way| way.turn != Turn::UTurn) {
+            for other in own.conflicts.iter().map(|id| &network.connections[id.index()]) {
+                let ends = Ends::of(own, other);
+                let zone = WayTrace::new(own).zone(&WayTrace::new(other), 2.7, ends);
+                let apart = |station: f64| {
+                    let point = polyline::at(&own.path, station).0;
+                    polyline::closest(&other.path, &point).map_or(0.0, |closest| closest.distance)
+                };
+                // Decimetres within the stretch they are as near as was asked for, as far as straight pieces stand for bends.
+                let enters = zone.enter() + ROOM;
+                if zone.enter() > 0.0 {
+                    assert!((apart(enters) - 2.7).abs() < 0.15, "{} m where it begins", apart(enters));
+                    met += 1;
+                }
+                if ends == Ends::Apart && f64::from(zone.leave) < own.length {
+                    let leaves = f64::from(zone.leave) - ROOM;
+                    assert!((apart(leaves) - 2.7).abs() < 0.15, "{} m where it ends", apart(leaves));
+                    met += 1;
+                }
+            }
+        }
+        assert!(met > 20, "{met} ends of stretches");
+    }
 }

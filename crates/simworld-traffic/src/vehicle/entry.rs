@@ -60,11 +60,16 @@ impl VehicleManager {
             let last = self.queue(tracks, lane).last();
             last.map_or(f64::INFINITY, |last| last.s - last.length() - length)
         };
+        // As close behind as it would follow: who came closer would come so much slower, and hold up all who follow.
+        let is_close = |lane: Track| {
+            let last = self.queue(tracks, lane).last();
+            last.is_some_and(|last| room(lane) <= idm.gap + idm.headway * last.v)
+        };
         let best = tracks
             .lanes_of(leg, row.kind)
             .filter(leads_on)
             .filter(|lane| self.junctions.inbound(*lane) <= 0.0 && tracks.length[*lane as usize] > length)
-            .filter(|lane| room(*lane) > idm.gap && !self.closures.has(*lane))
+            .filter(|lane| !is_close(*lane) && !self.closures.has(*lane))
             .max_by(|a, b| {
                 let suits = |lane: Track| tracks.suits(lane, row.kind);
                 suits(*a).cmp(&suits(*b)).then(room(*a).total_cmp(&room(*b))).then(b.cmp(a))

@@ -11,6 +11,7 @@ use simworld_core::net::Aspect;
 use super::claims::Claims;
 use super::clock::{Clock, Moment};
 use super::clusters::{TOO_LONG, Wish};
+use super::lookahead::BEFORE_LINE;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
 use super::sirens::{SEES as SIREN_SEES, may_pass_red};
@@ -271,7 +272,7 @@ impl Part {
             }
             let track = self.layout(scene.tracks).tracks[lane];
             let is_free = self.leaves_room_to_the_patient(scene, &vehicle);
-            if is_free && may_enter(self, scene, track, &vehicle, &mut overtaken) {
+            if is_free && may_enter(self, scene, (track, rank), &vehicle, &mut overtaken) {
                 if let Some(wish) = wants_permit(scene, &vehicle) {
                     self.work.wishes.push(wish);
                     continue;
@@ -327,7 +328,7 @@ pub(super) fn horizon(v: f64) -> f64 {
 fn may_enter(
     part: &Part,
     scene: &Scene<'_>,
-    lane: Track,
+    (lane, rank): (Track, usize),
     vehicle: &Vehicle,
     overtaken: &mut Vec<(u32, u32)>,
 ) -> bool {
@@ -349,14 +350,14 @@ fn may_enter(
                 && (siren || sight.waiting[strip.crossing as usize] == 0)
         })
         && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
-        && part.finds_gap(scene, way, vehicle, distance, overtaken)
+        && part.finds_gap(scene, vehicle, (distance, rank), overtaken)
 }
 
-/// Whether a vehicle has obeyed a stop sign: hardly anybody stands quite still there, least who turns.
+/// Whether a vehicle has obeyed a stop sign: hardly anybody stands quite still there, least who turns round the corner.
 fn has_stopped(vehicle: &Vehicle, way: &Way, distance: f64) -> bool {
-    /// Speed of those who roll past a stop sign, m/s, and where they have it, m: straight on, and in a turn.
-    const ROLLS: [(f64, f64); 2] = [(1.9, 2.0), (2.3, 2.4)];
-    let (speed, before) = ROLLS[usize::from(way.turns_by_gaps)];
+    /// Speed of those who roll past a stop sign, m/s, and where they have it, m: straight on, across, and round the corner.
+    const ROLLS: [(f64, f64); 3] = [(1.7, 1.8), (2.3, 2.4), (2.5, 2.7)];
+    let (speed, before) = ROLLS[if way.crosses_oncoming { 1 } else { 2 * usize::from(way.turns_by_gaps) }];
     vehicle.v < speed && distance < before
 }
 
@@ -409,7 +410,14 @@ fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
     if is_alone && !tracks.clusters.has(lane) {
         return true;
     }
-    is_room(scene.tracks, scene.config, (scene.junctions, scene.storage), (lane, scene.tail(lane)), vehicle)
+    // Who is in a roundabout follows those before while they move, through the places where others enter: its lanes are too short
+    // for the room of two.
+    let last = scene.tail(lane);
+    let goes_round = tracks.is_in_ring(lane) && tracks.is_in_ring(tracks.ways[way].from);
+    if goes_round && (last.is_none() || last.v > STANDING) {
+        return true;
+    }
+    is_room(scene.tracks, scene.config, (scene.junctions, scene.storage), (lane, last), vehicle)
 }
 
 /// Whether a lane with such a last vehicle has room for another.
@@ -421,16 +429,17 @@ pub(super) fn is_room(
     vehicle: &Vehicle,
 ) -> bool {
     let (inbound, room) = (junctions.inbound(lane), f64::from(ticks(vehicle, config)) / TICKS + SETTLES);
+    // The first stands at the line, without a gap.
+    let length = tracks.length[lane as usize] + config.vehicle_type(vehicle.row).driver.gap - BEFORE_LINE;
     if last.is_none() {
         // An empty lane takes one vehicle even if it is longer than the lane.
-        return inbound <= 0.0 || inbound + room <= tracks.length[lane as usize];
+        return inbound <= 0.0 || inbound + room <= length;
     }
     // What moves will have moved on by the time one gets there.
     let moves = if last.v > STANDING { last.v * 2.0 } else { 0.0 };
     // Unless all of them fit there when they stand, one's rear may stay in the junction; in a roundabout who goes first does not
     // stand, and its lanes are too short for two.
-    let fits =
-        || tracks.is_in_ring(lane) || storage.taken(lane) + inbound + room <= tracks.length[lane as usize];
+    let fits = || tracks.is_in_ring(lane) || storage.taken(lane) + inbound + room <= length;
     last.rear - inbound >= room || (last.rear + moves - inbound >= room && fits())
 }
 

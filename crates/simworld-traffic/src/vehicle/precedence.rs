@@ -4,35 +4,44 @@
 //! stretch that they share until the first is out of it. Along a lane the order is that of the queue, so that nobody ever
 //! waits for one who waits for him. One who asks is put behind all who hold ways that meet his own; before one of them
 //! he goes only if that one has not reached its line, can still stop for it, and by all that is seen need not.
+//!
+//! Who waits for a gap starts to roll while the last one still passes, so that it comes to its line when that one has come to his.
+//! Whoever could no longer stop before he is out of the way is relied on; others as long as one could still stop oneself.
 
 use simworld_core::net::{Aspect, time_over};
 
-use super::Way;
 use super::conflicts::Conflict;
 use super::junction::horizon;
+use super::lookahead::BEFORE_LINE;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::Part;
 use super::strangers;
 use super::tracks::Track;
+use super::{Idm, Way};
 
 /// Time that one wants between clearing a conflict and the arrival of who has no priority, s.
 pub(super) const MARGIN: f64 = 0.5;
 /// Time by which one delays who has priority, at most, s: the gaps of the manual leave no more than that.
 const DELAYS: f64 = 1.0;
-/// Time from leave to the line of one who is about to stop at it, s. A gap is taken to begin with it.
-const START: f64 = 1.2;
+/// Who comes up behind somebody that turns into its lane has lost so much time by its line, s, as it is seen in our streams; the
+/// gaps of the manual are those that were measured there, with what was lost.
+const EASES: f64 = 0.35;
 /// Vehicles with priority are looked for within this distance, m.
-pub(super) const SIGHT: f64 = 90.0;
+pub(super) const SIGHT: f64 = 120.0;
 /// Braking with which one who is overtaken in the order could stop at its line, m/s².
 pub(super) const EASILY: f64 = 2.0;
 /// Acceleration with which others are expected to clear the way, and to come, m/s².
 pub(super) const CLEARS: f64 = 1.0;
 pub(super) const COMES: f64 = 1.5;
+/// A time is computed with this acceleration at least, m/s².
+const LEAST: f64 = 1e-3;
 /// One relies on somebody else being gone as long as one could still stop with this share of one's hardest braking, in so much
-/// time before it, s, and so far before, m.
+/// time before it, s, and so far before, m; and as soon as the other could no longer stop before.
 const RELIES: f64 = 0.6;
 const RELIES_FOR: f64 = 0.2;
 const RELIES_UP_TO: f64 = 1.0;
+/// The hardest braking of anybody, m/s².
+const HARDEST: f64 = 10.0;
 
 /// Who turns in a gap accelerates so much harder than else.
 pub(super) const HURRY: f64 = 1.3;
@@ -49,6 +58,8 @@ struct Holder {
     front: f64,
     length: f64,
     v: f64,
+    /// The acceleration that one sees, m/s².
+    acceleration: f64,
     granted: u32,
     /// Its rank in the lane before the line.
     rank: u32,
@@ -59,12 +70,22 @@ impl Holder {
         self.front - self.length
     }
 
-    /// When it will be out of the way of another, s; never if it stands in the junction.
+    /// When it will be out of the way of another, s.
     fn clears(&self, conflict: &Conflict, speed: f64) -> f64 {
+        self.time(conflict.other.passed(), speed)
+    }
+
+    /// When it will be sure to come out of the way of another, s: it could no longer stop before.
+    fn is_sure_to_clear(&self, conflict: &Conflict, speed: f64) -> f64 {
+        self.time(conflict.other.passed() - self.v * self.v / (2.0 * HARDEST), speed)
+    }
+
+    /// When its rear comes to a station, s; never if it stands in the junction.
+    fn time(&self, station: f64, speed: f64) -> f64 {
         if self.front > 0.0 && self.v < STANDING {
             return f64::INFINITY;
         }
-        time_over(conflict.other.passed() - self.rear(), self.v, CLEARS, speed.max(3.0))
+        time_over(station - self.rear(), self.v, self.acceleration.max(CLEARS), speed.max(3.0))
     }
 }
 
@@ -77,11 +98,35 @@ pub(super) struct Asker {
     acceleration: f64,
     /// The speed across, m/s.
     speed: f64,
+    /// By how much who goes before it delays it, s.
+    delay: f64,
 }
 
 impl Asker {
+    fn new(scene: &Scene<'_>, vehicle: &Vehicle, distance: f64) -> Self {
+        let (tracks, way) = (scene.tracks, vehicle.next as usize);
+        let row = scene.config.vehicle_type(vehicle.row);
+        let hurry = if tracks.ways[way].turns_by_gaps { HURRY } else { 1.0 };
+        Self {
+            distance,
+            v: vehicle.v,
+            length: vehicle.length(),
+            acceleration: row.driver.acceleration * hurry,
+            speed: row.free_speed(scene.config, vehicle.factor, tracks.speed[tracks.lanes + way]),
+            delay: 0.0,
+        }
+    }
+
+    /// Lets it come to its line no sooner than a headway after who goes before it has left room for it there (Newell 2002).
+    fn stay_behind(&mut self, before: Option<Self>, driver: &Idm) {
+        if let Some(before) = before.filter(|before| before.distance + before.length + driver.gap > 0.0) {
+            let free = self.time(0.0);
+            self.delay = (before.time(before.length + driver.gap) + driver.headway - free).max(0.0);
+        }
+    }
+
     pub(super) fn time(&self, station: f64) -> f64 {
-        time_over(self.distance + station, self.v, self.acceleration, self.speed)
+        time_over(self.distance + station, self.v, self.acceleration, self.speed) + self.delay
     }
 
     /// When its rear is out of what a way shares with its own, s.
@@ -95,9 +140,10 @@ impl Asker {
         square.max(0.0).sqrt().min(self.speed)
     }
 
-    /// Whether it could go after a holder without standing in the junction. Who gives way lets it come by first.
+    /// Whether it could go after a holder without standing in the junction. Who gives way lets it come by first, and starts to roll
+    /// so as to be at its own line then.
     fn goes_after(&self, holder: &Holder, conflict: &Conflict, speed: f64) -> bool {
-        let has_come = holder.front >= 0.0 || !conflict.yields;
+        let has_come = !conflict.yields || holder.front + holder.v * self.time(0.0) >= 0.0;
         has_come && holder.clears(conflict, speed) <= self.time(conflict.own.enter())
     }
 
@@ -108,9 +154,17 @@ impl Asker {
         let excess = if conflict.merges { (comer.v - self.speed_at(gone)).max(0.0) } else { 0.0 };
         let slowed = excess * excess / (2.0 * EASILY * comer.v.max(1.0));
         let margin = if conflict.yields { -DELAYS } else { MARGIN };
-        let has_gap =
-            !conflict.yields || self.time(0.0) + f64::from(conflict.critical) - START <= comer.time(0.0);
-        has_gap && self.time(gone) + slowed + margin <= comer.time(conflict.other.enter())
+        let takes_gap = || self.time(gone) + self.asks_for(conflict, gone) <= comer.time(0.0);
+        (!conflict.yields || takes_gap())
+            && self.time(gone) + slowed + margin <= comer.time(conflict.other.enter())
+    }
+
+    /// How much sooner it wants to be gone than somebody with priority comes to its line, s: as much as one who starts at the line
+    /// in a gap that is just critical. Who rolls is over sooner, and needs so much less.
+    fn asks_for(&self, conflict: &Conflict, gone: f64) -> f64 {
+        let eases = if conflict.merges { EASES } else { 0.0 };
+        let from_rest = |way| time_over(BEFORE_LINE + way, 0.0, self.acceleration, self.speed);
+        f64::from(conflict.critical) - eases - (from_rest(gone) - from_rest(0.0))
     }
 }
 
@@ -121,11 +175,18 @@ pub(super) struct Comer {
     pub(super) v: f64,
     /// The speed to which it may go, m/s.
     pub(super) limit: f64,
+    /// The acceleration that one sees, m/s².
+    pub(super) acceleration: f64,
 }
 
 impl Comer {
     fn time(&self, station: f64) -> f64 {
-        time_over(self.distance + station, self.v, COMES, self.limit.max(self.v))
+        let limit = self.limit.max(self.v);
+        let missing = 1.0 - self.v / limit;
+        // Who nearly has his speed keeps it, unless one sees him speed up; who has just set off will speed up.
+        let expected = COMES * missing * missing;
+        let acceleration = self.acceleration.min(COMES).max(expected).max(LEAST);
+        time_over(self.distance + station, self.v, acceleration, limit)
     }
 }
 
@@ -135,23 +196,17 @@ impl Part {
     pub(super) fn finds_gap(
         &self,
         scene: &Scene<'_>,
-        way: usize,
         vehicle: &Vehicle,
-        distance: f64,
+        (distance, rank): (f64, usize),
         overtaken: &mut Vec<(u32, u32)>,
     ) -> bool {
         overtaken.clear();
+        let way = vehicle.next as usize;
         // Who hears a siren waits for it.
         let siren = scene.sirens.is_on(vehicle.id);
         let (tracks, junctions) = (scene.tracks, scene.junctions);
-        let row = scene.config.vehicle_type(vehicle.row);
-        let asker = Asker {
-            distance,
-            v: vehicle.v,
-            length: vehicle.length(),
-            acceleration: row.driver.acceleration * if tracks.ways[way].turns_by_gaps { HURRY } else { 1.0 },
-            speed: row.free_speed(scene.config, vehicle.factor, tracks.speed[tracks.lanes + way]),
-        };
+        let mut asker = Asker::new(scene, vehicle, distance);
+        asker.stay_behind(self.before(scene, vehicle, rank), &scene.config.vehicle_type(vehicle.row).driver);
         tracks.conflicts[way].iter().all(|conflict| {
             let is_held = junctions.is_held(conflict.way);
             if is_held && (vehicle.is_long() || junctions.has_long(conflict.way)) {
@@ -164,6 +219,19 @@ impl Part {
             !(gives_way && self.is_hindered(scene, &asker, conflict)
                 || strangers::hinder(scene, &asker, conflict))
         })
+    }
+
+    /// Who goes before one who asks, on its lane or on its way.
+    fn before(&self, scene: &Scene<'_>, vehicle: &Vehicle, rank: usize) -> Option<Asker> {
+        let (tracks, way) = (scene.tracks, vehicle.next as usize);
+        let lane = tracks.ways[way].from;
+        let end = tracks.length[lane as usize];
+        if let Some(rank) = rank.checked_sub(1) {
+            let before = &self.slabs.queue(tracks.layout.local(lane))[rank];
+            return (before.next != EXIT).then(|| Asker::new(scene, before, end - before.s));
+        }
+        let on_way = self.slabs.queue(tracks.layout.local((tracks.lanes + way) as Track)).last()?;
+        Some(Asker::new(scene, &Vehicle { next: vehicle.next, ..*on_way }, -on_way.s))
     }
 
     /// Whether one who asks may go after or before each of those who hold a way.
@@ -185,7 +253,8 @@ impl Part {
                 return;
             }
             let could_stop = holder.front < 0.0 && holder.v * holder.v <= -2.0 * EASILY * holder.front;
-            let comer = Comer { distance: -holder.front, v: holder.v, limit };
+            let comer =
+                Comer { distance: -holder.front, v: holder.v, limit, acceleration: holder.acceleration };
             fits = could_stop && asker.goes_before(conflict, &comer);
             if fits {
                 overtaken.push((tracks.layout.local(from) as u32, holder.rank));
@@ -202,7 +271,8 @@ impl Part {
             return false; // it cannot go, or lets one go
         }
         let limit = tracks.speed[tracks.ways[conflict.way as usize].from as usize];
-        !asker.goes_before(conflict, &Comer { distance: end - rival.s, v: rival.v, limit })
+        let acceleration = f64::from(rival.acceleration);
+        !asker.goes_before(conflict, &Comer { distance: end - rival.s, v: rival.v, limit, acceleration })
     }
 
     /// The first without leave on the way to a way that its signal lets go, and where its lane ends.
@@ -236,7 +306,8 @@ impl Part {
         let tail = scene.tail(to);
         if tail.way == way {
             let (length, rear) = (f64::from(tail.length), tail.rear + tracks.length[track]);
-            see(&Holder { front: rear + length, length, v: tail.v, granted: tail.granted, rank: 0 });
+            let front = rear + length;
+            see(&Holder { front, length, v: tail.v, acceleration: 0.0, granted: tail.granted, rank: 0 });
         }
     }
 
@@ -284,8 +355,10 @@ impl Part {
                 } else if rear < conflict.other.passed() && to_zone > -0.5 {
                     // So that it is gone when one could no longer stop for it.
                     let time = holder.clears(conflict, speed);
-                    let arrives = 2.0 * (to_zone - sure - vehicle.v * time) / (time * time).max(1e-9);
-                    if to_zone < sure || arrives < -EASILY {
+                    let open = holder.is_sure_to_clear(conflict, speed) - RELIES_FOR;
+                    let arrives = 2.0 * (to_zone - vehicle.v * time) / (time * time).max(1e-9);
+                    let arrives = arrives.min(in_time(vehicle.v, open, to_zone, hardest));
+                    if (to_zone < sure && open > 0.0) || arrives < -EASILY {
                         mind(Precedence::Stop { distance: to_zone });
                     } else if arrives < driver.acceleration {
                         mind(Precedence::Slow { acceleration: arrives });
@@ -294,6 +367,21 @@ impl Part {
             });
         }
     }
+}
+
+/// The acceleration with which one comes in so much time as near to a stretch as one may while somebody could still stop in it, m/s²;
+/// infinite once nobody could.
+fn in_time(v: f64, time: f64, to_zone: f64, hardest: f64) -> f64 {
+    if time <= 0.0 {
+        return f64::INFINITY;
+    }
+    // The speed `after` that one has then solves
+    // (v + after) / 2 · time + after² / (2 · hardest) + after · RELIES_FOR + RELIES_UP_TO = to_zone.
+    let half = time * 0.5 + RELIES_FOR;
+    let rest = to_zone - RELIES_UP_TO - v * time * 0.5;
+    let square = half * half + 2.0 * rest / hardest;
+    let after = if square > 0.0 { hardest * (square.sqrt() - half) } else { f64::NEG_INFINITY };
+    if after < 0.0 { f64::NEG_INFINITY } else { (after - v) / time }
 }
 
 /// What the older leave of another asks of one.
@@ -315,8 +403,8 @@ impl Conflict {
 
 impl Holder {
     fn of(vehicle: &Vehicle, front: f64, rank: usize) -> Self {
-        let (v, granted) = (vehicle.v, vehicle.granted);
-        Self { front, length: vehicle.length(), v, granted, rank: rank as u32 }
+        let (v, acceleration, granted) = (vehicle.v, f64::from(vehicle.acceleration), vehicle.granted);
+        Self { front, length: vehicle.length(), v, acceleration, granted, rank: rank as u32 }
     }
 }
 
@@ -330,7 +418,47 @@ impl Vehicle {
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::net::Zone;
+
+    use super::super::beside::Pairs;
     use super::*;
+
+    #[test]
+    fn one_comes_as_near_as_one_could_still_stop() {
+        let (hardest, to_zone) = (5.4, 12.0);
+        for (v, time) in [(0.0, 2.0), (4.0, 1.5), (8.0, 1.0), (10.0, 0.5)] {
+            let acceleration = in_time(v, time, to_zone, hardest);
+            let after = v + acceleration * time;
+            let left = to_zone - (v + after) * 0.5 * time;
+            let needed = after * (after / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
+            assert!((left - needed).abs() < 1e-9, "{left} m left of {needed} m from {v} m/s in {time} s");
+        }
+        // Who is bound to be out of the way is no reason to brake, and who would have to be passed too soon is one to stop.
+        assert_eq!(in_time(8.0, 0.0, to_zone, hardest), f64::INFINITY);
+        assert_eq!(in_time(13.0, 3.0, to_zone, hardest), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn who_rolls_needs_a_shorter_gap() {
+        let zone = |enter, leave| Zone { enter, leave };
+        let conflict = Conflict {
+            way: 0,
+            yields: true,
+            critical: 4.1,
+            merges: false,
+            pairs: Pairs::ALL,
+            own: zone(4.8, 13.9),
+            other: zone(8.9, 17.9),
+        };
+        let asks = |distance, v| {
+            let asker = Asker { distance, v, length: 4.5, acceleration: 1.95, speed: 5.7, delay: 0.0 };
+            // The least gap between its own line and that of who comes.
+            let gone = conflict.own.passed() + asker.length;
+            asker.time(gone) + asker.asks_for(&conflict, gone) - asker.time(0.0)
+        };
+        assert!((asks(BEFORE_LINE, 0.0) - 4.1).abs() < 1e-6);
+        assert!(asks(4.0, 4.0) < 3.7 && asks(4.0, 4.0) > 3.0);
+    }
 
     #[test]
     fn the_order_goes_on_when_numbers_begin_anew() {

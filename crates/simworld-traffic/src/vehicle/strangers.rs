@@ -33,7 +33,7 @@ pub(super) fn hinder(scene: &Scene<'_>, asker: &Asker, conflict: &Conflict) -> b
         let could_stop = body.v * body.v <= 2.0 * EASILY * distance;
         // Who has priority is relied on; of others only those count who cannot stop any more.
         let counts = (conflict.yields && scene.aspect(signal) == Aspect::Green) || !could_stop;
-        let comer = Comer { distance, v: body.v, limit };
+        let comer = Comer { distance, v: body.v, limit, acceleration: COMES };
         distance < SIGHT && counts && !asker.goes_before(conflict, &comer)
     };
     let concerns =

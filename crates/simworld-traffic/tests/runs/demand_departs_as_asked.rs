@@ -159,3 +159,26 @@ fn what_cannot_be_is_refused() {
     assert!(matrix.set(0, 0, 1.0).is_err());
     assert_eq!((matrix.get(3, 4), matrix.total()), (0.0, 0.0));
 }
+
+/// Who enters comes as fast as those before go, so that a lane takes at its beginning what it can carry: 1100 an hour before, when
+/// everybody squeezed in behind the last at a walk.
+#[test]
+fn a_lane_takes_at_its_beginning_what_it_carries() {
+    let plan = StreetPlan::crossroads(400.0);
+    let network = Arc::new(RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap());
+    let mut traffic = empty(&network);
+    let route = Router::new(&network);
+    let inwards = Leg::new(RoadId(0), LaneDirection::Backward);
+    let route = route.quickest(inwards, leg(2)).expect("it leads straight on");
+    for _ in 0..600 {
+        traffic.insert(route.clone(), VehicleKind::Car).unwrap();
+    }
+    let mut fastest = 0.0_f64;
+    while traffic.seconds() < 60.0 {
+        traffic.step(0.1);
+        fastest = traffic.stations().map(|(_, _, _, v)| v).fold(fastest, f64::max);
+    }
+    let flow = traffic.counters().entered as f64 * 60.0;
+    assert!(flow > 1500.0 && flow < 2300.0, "{flow} an hour");
+    assert!(fastest > 8.0, "{fastest} m/s at most");
+}
