@@ -283,6 +283,8 @@ pub(super) enum Stands {
     OnStreet(Vec<RoadId>),
     /// With a gap of at most so much to a thing, m.
     Within(f64, Box<Reference>),
+    /// With a gap of at least so much to a thing, m.
+    Beyond(f64, Box<Reference>),
     /// In a direction from a thing or, without one, from the agent.
     Compass(Compass, Option<Box<Reference>>),
     /// In all of these ways.

@@ -56,6 +56,7 @@ const IDLE: &Phrases = &Phrases::of(&[
     "absolute",
     "absolutely",
     "single",
+    "only",
 ]);
 
 impl Parser<'_> {

@@ -58,6 +58,15 @@ impl View<'_> {
                 });
                 Ok(found)
             }
+            Stands::Beyond(reach, anchor) => {
+                let anchor = self.find(anchor, Purpose::Any)?;
+                let mut found = self.around(reference, anchor.planar(), self.range, purpose);
+                found.retain(|(_, id)| {
+                    let entity = self.scene.entity(*id).filter(|entity| entity.id != anchor.id);
+                    entity.is_some_and(|entity| gap(&anchor, &entity) > *reach)
+                });
+                Ok(found)
+            }
             Stands::Between(one, other) => self.between(reference, one, other, purpose),
             Stands::NearestTo(anchor, nearest) => {
                 let anchor = self.find(anchor, Purpose::Any)?;

@@ -22,6 +22,9 @@ const IN_AREA: &Phrases = &Phrases::of(&["in", "on", "inside", "at", "within", "
 /// What stands before a distance that is the greatest.
 #[rustfmt::skip]
 const WITHIN: &[&str] = &["within", "not more than", "no more than", "at most", "less than", "no farther than", "in a radius of"];
+/// What stands before a distance that is the least.
+#[rustfmt::skip]
+const BEYOND: &[&str] = &["more than", "at least", "farther than", "further than", "farther away than", "further away than", "not within", "no less than", "no closer than", "no nearer than"];
 /// What stands behind it.
 const OF: &[&str] = &["of", "from", "away from", "around", "off", "to"];
 /// Words that compare with a number.
@@ -53,6 +56,15 @@ impl Parser<'_> {
             self.at += words;
             if self.eat_any(OF) {
                 return Ok(Some(Stands::Within(reach, Box::new(self.reference(depth + 1)?))));
+            }
+        }
+        self.at = start;
+        if self.eat_any(BEYOND)
+            && let Some((reach, words)) = numbers::length(self.rest())
+        {
+            self.at += words;
+            if self.eat_any(OF) {
+                return Ok(Some(Stands::Beyond(reach, Box::new(self.reference(depth + 1)?))));
             }
         }
         self.at = start;
@@ -150,5 +162,5 @@ impl Parser<'_> {
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     let than = THAN.iter().flat_map(|(words, _)| *words).copied();
-    than.chain(WITHIN.iter().copied()).flat_map(|phrase| phrase.split(' '))
+    than.chain(WITHIN.iter().chain(BEYOND).copied()).flat_map(|phrase| phrase.split(' '))
 }

@@ -23,7 +23,7 @@ const FLOORS: [(&str, f64); 15] = [
     ("other_verbs", 95.0),
     ("ambiguous", 95.0),
     ("unsatisfiable", 95.0),
-    ("paraphrase", 94.0),
+    ("paraphrase", 92.0),
     ("typo", 95.0),
 ];
 
@@ -97,7 +97,7 @@ fn what_was_taught_is_understood() {
             }
         }
     }
-    assert!(all >= 400, "only {all} sentences");
+    assert!(all >= 800, "only {all} sentences");
     assert!(faults.is_empty(), "{} of {all}\n{}", faults.len(), faults.join("\n"));
 }
 

@@ -14,7 +14,7 @@ use super::words::{VERBS, Verb};
 #[rustfmt::skip]
 const TAKES: &Phrases = &Phrases::of(&["throw", "take", "chuck", "get", "tear", "knock", "pull", "cut", "chop", "toss", "kick", "haul", "cart", "clear", "sweep",
     "carry", "send", "bring", "drag", "push", "rip", "strip", "wipe", "lift", "put", "clean", "dig", "move", "pluck", "have", "want", "make", "let",
-    "see", "strike", "cross", "rub", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast"]);
+    "see", "strike", "cross", "rub", "tow", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast"]);
 /// The particles.
 #[rustfmt::skip]
 const AWAY: &Phrases = &Phrases::of(&["away", "out", "off", "out of here", "out of there", "out of the way", "out of the scene", "from the scene", "from here", "off the map",
@@ -84,6 +84,18 @@ impl Reader<'_> {
             let what = self.things(at + words, cut).ok().filter(|_| away || down)?;
             self.is_definite(at + words).then_some(Wish::Remove { what })
         })
+    }
+
+    /// "Tow the car": away, if no place to which it is towed is named.
+    pub(super) fn towed(&self, at: usize, end: usize) -> Option<Wish> {
+        let end = self.before_politeness(at, end);
+        let is_tow = at > 0 && matches!(self.word(at - 1), Some("tow" | "towed"));
+        let leads = |at: usize| self.is_place(at) && !matches!(self.word(at), Some("on" | "in" | "from"));
+        if !is_tow || !self.is_certain(at) || (at..end).any(leads) {
+            return None;
+        }
+        let away = longest_phrase(&self.lexemes[end - 1..end], &["away", "off"]).unwrap_or(0);
+        self.things(at, end - away).ok().map(|what| Wish::Remove { what })
     }
 
     /// "Give the taxi a fresh coat of pink", "put some pink paint on the taxi", "do the taxi up in pink".

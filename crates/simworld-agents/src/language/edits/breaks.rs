@@ -181,9 +181,15 @@ fn again_at(lexemes: &[Lexeme], mark: usize) -> Option<(usize, usize, Vec<Lexeme
                 || longest_phrase(&lexemes[*at..], &["i mean", "i meant"]) == Some(end - at)
         })
         .unwrap_or(end);
-    let name = lexemes.get(begin..end).filter(|name| (2..=3).contains(&name.len()))?;
+    // "A tree, an oak".
+    let is_kind = |name: &[Lexeme]| {
+        begin > from && name.last().is_some_and(|last| super::follow::species(last).is_some())
+    };
+    let name = lexemes
+        .get(begin..end)
+        .filter(|name| (2..=3).contains(&name.len()) || name.len() == 1 && is_kind(name))?;
     let all_words = name.iter().all(|word| matches!(word.token, Token::Word(_)));
-    let head = head_of(name.last()?)?;
+    let head = if name.len() == 1 { "tree" } else { head_of(name.last()?)? };
     let sentence =
         lexemes[..mark].iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);
     let noun = (sentence..mark).find(|at| head_of(&lexemes[*at]) == Some(head))?;

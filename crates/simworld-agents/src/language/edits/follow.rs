@@ -155,6 +155,10 @@ impl Reader<'_> {
                             super::words::Verb::Add | super::words::Verb::Put | super::words::Verb::Take
                         )
                     });
+                // "Our kids are mad about giraffes, put one here" makes no kid.
+                if is_new && is_crowd(noun) {
+                    return None;
+                }
                 if is_new {
                     words.push(word_at(lexeme, "a"));
                 }
@@ -206,7 +210,8 @@ impl Reader<'_> {
             // "It deserves a nice name" names nothing once more.
             Wish::Name { .. }
                 if longest_phrase(&self.lexemes[from..end], &["it", "he", "she", "they", "its"])
-                    .is_none() =>
+                    .is_none()
+                    && self.ends_with_name(from, end) =>
             {
                 &["call"]
             }
@@ -233,6 +238,18 @@ impl Reader<'_> {
                 )
         };
         wishes.iter().flatten().all(same).then_some(wishes)
+    }
+
+    /// "And the bakery Bready": what is named is written as a name. "The school asked so nicely" names nothing.
+    fn ends_with_name(&self, from: usize, end: usize) -> bool {
+        let Some(last) = self.lexemes.get(end - 1).filter(|_| end > from) else { return false };
+        let written = self.words.get(self.lexemes[from].start..last.end).unwrap_or_default();
+        let behind = self.words.get(last.end..).unwrap_or_default();
+        let is_to = (from..end).any(|at| matches!(self.word(at), Some("to" | "as" | "into")));
+        is_to
+            || written.contains(['"', '\'', '“', '”', '‘', '’'])
+            || behind.starts_with(['"', '\'', '”', '’'])
+            || self.words.get(last.start..).is_some_and(|word| word.starts_with(char::is_uppercase))
     }
 
     /// The wish before, for something else.
@@ -395,6 +412,14 @@ pub(super) fn species(lexeme: &Lexeme) -> Option<&'static str> {
     ];
     let Token::Word(word) = &lexeme.token else { return None };
     SPECIES.iter().copied().find(|one| one == word || *word == plural_of(one))
+}
+
+/// Whether a noun is one of people alone.
+pub(super) fn is_crowd(noun: &[Lexeme]) -> bool {
+    use simworld_core::scene::EntityKind;
+    category(noun).is_some_and(|(class, _)| {
+        !class.kinds().is_empty() && class.kinds().iter().all(|kind| *kind == EntityKind::Person)
+    })
 }
 
 fn plural_of(word: &str) -> String {

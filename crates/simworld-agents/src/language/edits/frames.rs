@@ -52,13 +52,13 @@ const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "
     "get", "shall", "not", "rather", "arrange", "care", "requested", "pleasing", "declare", "idea", "plan", "going", "gonna", "lets", "id", "wed", "theyd", "hed", "shed", "loves", "likes"];
 /// What asks what is or was so: no request.
 #[rustfmt::skip]
-const QUESTIONS: &Phrases = &Phrases::of(&["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
+const QUESTIONS: &Phrases = &Phrases::of(&["you see the", "you see that", "you know the", "you know that", "you know how", "people never", "people always", "people keep", "people cant", "people dont", "im a", "im an", "i am a", "i am an", "im the", "i am the", "hes a", "shes a", "hes the", "shes the", "he is a", "she is a", "did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
     "what was", "what are", "is the", "are the", "do you know", "do you have any idea", "have you heard", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
 
 /// "For the street party": what something is for that takes place.
 #[rustfmt::skip]
-const EVENTS: &Phrases = &Phrases::of(&["party", "fair", "festival", "parade", "fete", "wedding", "race", "marathon", "concert", "show", "shoot", "shooting", "film", "match", "tour", "picnic", "ceremony", "festivities", "celebration", "celebrations", "run", "day", "night", "week", "weekend", "season", "exhibition", "protest", "march", "procession", "funeral", "championship", "tournament", "rehearsal", "opening"]);
+const EVENTS: &Phrases = &Phrases::of(&["walk", "hunt", "sale", "reception", "fundraiser", "party", "fair", "festival", "parade", "fete", "wedding", "race", "marathon", "concert", "show", "shoot", "shooting", "film", "match", "tour", "picnic", "ceremony", "festivities", "celebration", "celebrations", "run", "day", "night", "week", "weekend", "season", "exhibition", "protest", "march", "procession", "funeral", "championship", "tournament", "rehearsal", "opening"]);
 static WORDS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| SMALL.split_whitespace().collect());
 
 /// Where a request may begin.

@@ -6,6 +6,7 @@
 mod afterthoughts;
 mod answers;
 mod apart;
+mod aside;
 mod ask;
 mod asked;
 mod bounds;
@@ -65,6 +66,7 @@ mod things;
 mod told;
 mod turn;
 mod turns;
+mod which;
 mod whole;
 mod wish;
 pub(super) mod words;
@@ -141,6 +143,7 @@ pub(crate) fn read(
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
+    which::in_plain_words(&mut lexemes);
     whole::in_plain_words(&mut lexemes);
     passing::leave_out(&mut lexemes);
     rows::on_both_sides(&mut lexemes, &focus.streets);
@@ -230,7 +233,14 @@ fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
     let it = |readings: &[Wish]| matches!(readings, [Wish::Remove { what }] if what.iter().all(says::is_it));
     let mut at = 1;
     while at < wishes.len() {
-        if removes(&wishes[at - 1]) && it(&wishes[at]) {
+        // "Elm Street has to be a play street: close it".
+        let is_same_passage = match (wishes[at - 1].first(), wishes[at].as_slice()) {
+            (Some(Wish::Passage { passage: before, .. }), [Wish::Passage { which, passage }]) => {
+                before == passage && which.iter().all(|street| *street == wish::StreetRef::It)
+            }
+            _ => false,
+        };
+        if is_same_passage || removes(&wishes[at - 1]) && it(&wishes[at]) {
             wishes.remove(at);
         } else {
             at += 1;
@@ -290,7 +300,7 @@ fn wishes_of(
     if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
         return plain;
     }
-    let in_parts = reader.in_parts(&is_known, &is_there, Telling::ByWords);
+    let in_parts = reader.in_parts(&is_known, &is_there, Telling::Words);
     if let Some(wishes) = in_parts.as_ref().filter(|wishes| is_there(wishes)) {
         return Ok(wishes.clone());
     }
@@ -306,7 +316,7 @@ fn wishes_of(
             return plain.ok();
         }
         let in_parts =
-            reader.in_parts(&is_known, &is_there, Telling::ByWords).filter(|wishes| is_there(wishes));
+            reader.in_parts(&is_known, &is_there, Telling::Words).filter(|wishes| is_there(wishes));
         // What is not there, or what nobody has, is a better answer than that nothing is understood.
         if !matches!(plain, Err(PlanError::NotUnderstood { .. })) {
             answer.get_or_insert(plain);
@@ -318,13 +328,19 @@ fn wishes_of(
     }
     let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
     let by_shape = |reader: &Reader<'_>| {
-        let found = reader.in_parts(&is_known, &is_there, Telling::ByShape)?;
+        let found = reader.in_parts(&is_known, &is_there, Telling::Shape)?;
         // What is told along the way may have said where.
         (is_there(&found) && !found.iter().flatten().any(is_nowhere)).then_some(found)
     };
     let along_the_way = by_shape(&reader)
         .or_else(|| ways.iter().find_map(|(lexemes, memo)| by_shape(&over((lexemes.as_slice(), memo)))));
     if let Some(wishes) = along_the_way {
+        return Ok(wishes);
+    }
+    let readers = ways.iter().map(|(lexemes, memo)| over((lexemes.as_slice(), memo)));
+    if let Some(wishes) =
+        std::iter::once(reader).chain(readers).find_map(|reader| reader.of_sentences(&is_known, &is_there))
+    {
         return Ok(wishes);
     }
     if let Some(answer) = answer.filter(|_| plain.is_err()) {
@@ -336,10 +352,10 @@ fn wishes_of(
             let unknown = |telling| reader.in_parts(&|_| true, &|_| true, telling);
             let has_parts = reader.lexemes.iter().rev().skip(1).any(super::lexer::is_mark);
             let by_shape = || {
-                let found = has_parts.then(|| unknown(Telling::ByShape)).flatten()?;
+                let found = has_parts.then(|| unknown(Telling::Shape)).flatten()?;
                 (!found.iter().flatten().any(is_nowhere)).then_some(found)
             };
-            let unknown = || unknown(Telling::ByWords).or_else(by_shape);
+            let unknown = || unknown(Telling::Words).or_else(by_shape);
             reader.complaint().or_else(unknown).ok_or(error)
         }
     }

@@ -21,7 +21,8 @@ use super::super::parser::Parser;
 use super::super::phrases::{PhraseList, Phrases};
 use super::super::resolve::View;
 use super::memo::{Memo, said};
-use super::polite::{CODA, JOINTS, POLITE};
+use super::polite::{CODA, POLITE};
+pub(super) use super::polite::{joint, small_words};
 use super::says::Mood;
 use super::wish::Wish;
 use super::words::{VERBS, Verb};
@@ -201,7 +202,9 @@ impl<'a> Reader<'a> {
             let read = self.after(verb, end);
             // What else stands before a verb may change what is meant; but a thing that is not there is not there.
             if !self.is_preamble(start, begin) {
-                if let Err(error @ PlanError::NotFound { .. }) = read {
+                if let Err(error @ PlanError::NotFound { .. }) = read
+                    && !self.others_do(start, begin)
+                {
                     refused = refused.or(Some(error));
                 }
                 continue;
@@ -271,7 +274,11 @@ impl<'a> Reader<'a> {
             Verb::Count => self.count(end),
             Verb::List => self.list(end),
             Verb::Describe => {
-                let what = self.one_to(end)?;
+                // "Tell me about your childhood" is about nothing of the scene.
+                let of_you = self.word(self.at) == Some("your");
+                let what = self
+                    .one_to(end)
+                    .map_err(|error| if of_you { self.not_understood(UNDERSTOOD) } else { error })?;
                 Ok(vec![vec![Wish::Describe { what }]])
             }
             Verb::Make => self.make(end),
@@ -282,11 +289,18 @@ impl<'a> Reader<'a> {
     /// What behind a verb asks for something else than the verb does alone: a place before a thing, a weather, a list, a colour.
     fn told_otherwise(&mut self, verb: Verb, end: usize) -> Option<Result<Vec<Vec<Wish>>, PlanError>> {
         if matches!(verb, Verb::Add | Verb::Put | Verb::Move)
+            && self.word(self.at - 1) != Some("tow")
             && let Some(wishes) = self.place_then_thing(end)
         {
             return Some(Ok(wishes));
         }
         let one = |wish| Some(Ok(vec![vec![wish]]));
+        if verb == Verb::Move
+            && let Some(wish) = self.towed(self.at, end)
+        {
+            self.at = end;
+            return one(wish);
+        }
         if verb == Verb::Add
             && let Some(sky) = self.sky(end)
         {
@@ -469,32 +483,5 @@ impl<'a> Reader<'a> {
     /// The answer when the words from here on make no sense.
     pub(super) fn not_understood(&self, hint: &str) -> PlanError {
         self.parser(self.at.min(self.lexemes.len()), self.lexemes.len()).not_understood(hint)
-    }
-}
-
-/// Every word that joins wishes or is polite, so that none is taken for a misspelling.
-pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
-    JOINTS.iter().chain(POLITE).chain(CODA).flat_map(|phrase| phrase.split(' '))
-}
-
-/// "Too" before a word of which there is too much.
-fn is_too_much(lexemes: &[Lexeme]) -> bool {
-    const GOES_ON: &Phrases = &Phrases::of(&[
-        "and", "please", "then", "thanks", "but", "plus", "also", "thank", "with", "put", "add", "paint",
-        "move", "remove", "make",
-    ]);
-    longest_phrase(lexemes, &["too"]).is_some()
-        && matches!(lexemes.get(1).map(|next| &next.token), Some(Token::Word(word)) if !GOES_ON.contains(word))
-}
-
-/// How many words at the start join two things or wishes.
-pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
-    match lexemes.first().map(|lexeme| &lexeme.token) {
-        Some(Token::Comma | Token::Break) => Some(1),
-        // "Next to the Campus Clinic" is no joint and something on the campus.
-        _ if longest_phrase(lexemes, &["first aid", "next to"]).is_some() => None,
-        // "Too bright" is no joint and something bright.
-        _ if is_too_much(lexemes) => None,
-        _ => longest_phrase(lexemes, JOINTS),
     }
 }

@@ -7,7 +7,7 @@
 
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, is_mark};
-use super::super::lexicon::{is_animate, longest, longest_phrase};
+use super::super::lexicon::{category, is_animate, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::follow::Said;
 use super::parse::{Reader, joint};
@@ -39,9 +39,11 @@ struct Search<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Telling {
     /// By the words of remarks.
-    ByWords,
+    Words,
     /// By their shape too, whatever their words are.
-    ByShape,
+    Shape,
+    /// As whole sentences too, whatever they speak of.
+    Sentence,
 }
 
 /// So much was tried that nothing more is.
@@ -101,11 +103,23 @@ impl Reader<'_> {
                 continue;
             }
             let is_first = said.wish.is_none() && spoken_of.is_empty();
+            if self.is_count_told(&wishes, from, end) {
+                continue;
+            }
             if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
                 continue;
             }
             let with = from > 0 && self.word(from - 1) == Some("with");
+            let both = (from..end).any(|at| self.word(at) == Some("both"));
             wishes.iter_mut().flatten().for_each(|wish| {
+                // "The van and the bike are broken, take both of them away".
+                if let Wish::Remove { what } | Wish::Paint { what, .. } = wish
+                    && both
+                    && spoken_of.len() == 2
+                    && matches!(&what[..], [only] if super::follow::is_open(only))
+                {
+                    *what = spoken_of.to_vec();
+                }
                 if let Some(before) = &said.wish {
                     super::shared::on_street(before, wish, with);
                 }
@@ -134,17 +148,21 @@ impl Reader<'_> {
         (said, spoken_of): (&Said, &[Reference]),
         search: &mut Search<'_>,
     ) -> Option<Vec<Vec<Wish>>> {
-        cuts.iter().copied().take(4).find_map(|end| {
+        let by_sentence = search.telling == Telling::Sentence;
+        let whole = by_sentence.then(|| self.sentence_end(from));
+        whole.into_iter().chain(cuts.iter().copied().take(4)).find_map(|end| {
             let is_heading = said.wish.is_none() && end < self.lexemes.len() && self.is_heading(from, end);
             let asks_nothing = is_heading
                 || self.is_said_twice(said, from, end)
                 || self.is_remark(from, end)
                 || self.is_remark(remark.min(from), end)
                 || said.wish.is_some() && self.is_idle(from, end);
-            let is_told =
-                || search.telling == Telling::ByShape && self.is_told(remark.min(from), end, search.is_known);
+            let is_told = || {
+                search.telling != Telling::Words && self.is_told(remark.min(from), end, search.is_known)
+                    || by_sentence && self.is_sentence_aside(from, end, search.is_known)
+            };
             if !asks_nothing && !is_told()
-                || said.wish.is_some() && self.is_listed(from, end)
+                || said.wish.is_some() && self.is_listed(said, from, end)
                 || self.hides_wish(said, (from, end), search.is_known)
             {
                 return None;
@@ -157,9 +175,15 @@ impl Reader<'_> {
                 things.extend(later);
             }
             let lacks = self.noun_lacking(from, end);
+            // "My niece wants a unicorn, so put one here": a unicorn, and no niece.
+            let of_crowd = |noun: &Vec<Lexeme>| super::follow::is_crowd(noun);
+            let last = self.last_noun(from, end);
+            let wanted = || self.wanted_noun(from, end);
+            let last = if last.as_ref().is_some_and(of_crowd) { wanted().or(last) } else { last };
             let noun = lacks
-                .or_else(|| self.last_noun(from, end))
+                .or(last)
                 .or_else(|| self.asset_in(from, end))
+                .or_else(wanted)
                 .or_else(|| said.noun.clone());
             let place = self
                 .place_spoken_of(from, end)
@@ -168,6 +192,25 @@ impl Reader<'_> {
             let now = Said { noun, place, ..said.clone() };
             self.parts_from(end, &now, &things, search)
         })
+    }
+
+    /// "Thirty men are coming, thirty, so ...": bare things without a place from which a request follows are who it is for.
+    fn is_count_told(&self, wishes: &[Vec<Wish>], from: usize, end: usize) -> bool {
+        let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+        let marks = self.lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        // "Thirty men, so thirty chairs" is no list.
+        let early = (from + 1..end.min(from + 4))
+            .any(|at| is_mark(&self.lexemes[at]) && self.word(at + 1) == Some("so"));
+        if early
+            && super::super::numbers::count(&self.lexemes[from..end]).is_some()
+            && longest(&self.lexemes[from..end], &VERBS).is_none()
+        {
+            return true;
+        }
+        marks > 0
+            && longest_phrase(&self.lexemes[end + marks..], &["so"]).is_some()
+            && wishes.iter().flatten().all(nowhere)
+            && longest(&self.lexemes[from..end], &VERBS).is_none()
     }
 
     /// Whether an order that is understood stands in what seems to ask for nothing: "for the street party close Elm Street".
@@ -189,14 +232,23 @@ impl Reader<'_> {
     }
 
     /// "Remove the van and the yellow car, ...": what is named behind "and" up to a mark is one more of those that were named.
-    fn is_listed(&self, from: usize, end: usize) -> bool {
+    fn is_listed(&self, said: &Said, from: usize, end: usize) -> bool {
         let is_joined = from > 0 && matches!(self.word(from - 1), Some("and" | "or" | "plus"));
         let mut parser = self.parser(from, end);
+        let is_new =
+            longest_phrase(&self.lexemes[from..end], &["a", "an", "another", "two", "three", "four", "some"])
+                .is_some();
+        let is_bare = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+        if is_joined && is_new && said.wish.as_ref().is_some_and(is_bare) {
+            return true;
+        }
         is_joined
             && self.is_definite(from)
             && parser.reference(0).is_ok()
             && parser.at > from
-            && self.lexemes.get(parser.at).is_none_or(is_mark)
+            // "Turn the taxi around and the van ninety degrees to the right".
+            && (self.lexemes.get(parser.at).is_none_or(is_mark)
+                || super::super::numbers::number(&self.lexemes[parser.at..end.max(parser.at)]).is_some())
     }
 
     /// "Rename it", whatever is said behind.
@@ -260,6 +312,15 @@ impl Reader<'_> {
         order.into_iter().cloned().collect()
     }
 
+    /// What somebody wants or is fond of, whatever it is: "a roller coaster", "mad about giraffes".
+    fn wanted_noun(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        const LONGEST: usize = 3;
+        let at = (from + 1..end).rev().find(|at| matches!(self.word(at - 1), Some("a" | "an" | "about")))?;
+        let stop = (at..end).find(|at| is_mark(&self.lexemes[*at]) || self.is_place(*at)).unwrap_or(end);
+        let noun = self.lexemes.get(at..stop).filter(|noun| (1..=LONGEST).contains(&noun.len()))?;
+        (category(noun).is_none() && self.names.exact(noun).is_none()).then(|| noun.to_vec())
+    }
+
     /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
     fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
         (from + 1..end).rev().find_map(|at| {
@@ -305,6 +366,14 @@ impl Reader<'_> {
         // "It is for Anna": what was spoken of before stays the first.
         let again =
             longest_phrase(&self.lexemes[from..end], &["it", "its", "it is", "they", "theyre", "they are"]);
+        // "Bo works at the kiosk, but he's always on the square": Bo stays the first.
+        let small = longest_phrase(&self.lexemes[from..end], &["but", "and", "so", "because", "since", "as"])
+            .unwrap_or(0);
+        let of_somebody =
+            longest_phrase(&self.lexemes[from + small..end], &["he", "she", "hes", "shes"]).is_some();
+        if of_somebody && !spoken_of.is_empty() {
+            things.splice(0..0, spoken_of.iter().cloned());
+        }
         if again.is_some() && !things.is_empty() {
             let it = Reference::to(super::super::clause::Target::It, "it".to_owned());
             things.insert(0, spoken_of.first().cloned().unwrap_or(it));
@@ -323,7 +392,11 @@ impl Reader<'_> {
             return Some(vec![vec![wish]]);
         }
         // "The white ones go" behind chairs: the white chairs.
-        let of_those = self.names_ones(start, stop).then(|| self.with_noun(said, start, stop)).flatten();
+        // What stands before them in the part itself is what they are: "all the scooters except the green one".
+        let one = (start..stop).find(|at| matches!(self.word(*at), Some("one" | "ones"))).unwrap_or(start);
+        let of_those = (self.names_ones(start, stop) && self.last_noun(start, one).is_none())
+            .then(|| self.with_noun(said, start, stop))
+            .flatten();
         if let Some(wishes) = of_those.and_then(|order| self.read_anew(&order)) {
             return Some(wishes);
         }
@@ -337,7 +410,8 @@ impl Reader<'_> {
             return Some(wishes);
         }
         // "Swap the red bench with the blue one".
-        let own = Said { noun: self.last_noun(start, end), ..Said::default() };
+        let one = (start..end).find(|at| matches!(self.word(*at), Some("one" | "ones"))).unwrap_or(end);
+        let own = Said { noun: self.last_noun(start, one), ..Said::default() };
         self.with_noun(&own, start, end).and_then(|order| self.read_anew(&order))
     }
 

@@ -13,7 +13,7 @@ use super::words::{CLOSING, OPENING, WAYS, Way};
 
 /// That a street is closed, or to be.
 #[rustfmt::skip]
-const CLOSED: &Phrases = &Phrases::of(&["closed", "blocked", "shut", "barred", "sealed off", "car free", "carfree", "free of cars",
+const CLOSED: &Phrases = &Phrases::of(&["a no go", "no go", "a no go area", "a no go zone", "closed", "blocked", "shut", "barred", "sealed off", "car free", "carfree", "free of cars",
     "free of traffic", "traffic free", "off limits", "no more cars", "no cars", "no traffic", "no more traffic",
     "no vehicles", "no car", "nobody should be able to drive", "nobody may drive", "nobody drives", "no one may drive",
     "nobody should drive", "cars should not drive", "cars must not drive", "cars may not use", "cars cannot use",
@@ -61,7 +61,34 @@ impl Reader<'_> {
             matches!(self.word(at), Some("was" | "were"))
                 && matches!(self.word(at + 1), Some("closed" | "shut" | "blocked" | "barred"))
         };
-        if (self.at..end).any(was) {
+        // "They closed Mill Lane last year" tells, and asks for nothing.
+        let they = longest_phrase(
+            &self.lexemes[self.at..end],
+            &[
+                "they",
+                "theyve",
+                "they have",
+                "somebody",
+                "someone",
+                "he",
+                "she",
+                "the council",
+                "the city",
+                "the police",
+                "because they",
+                "since they",
+            ],
+        );
+        let closed = they.is_some_and(|words| {
+            matches!(
+                self.word(self.at + words),
+                Some("closed" | "shut" | "blocked" | "barred" | "opened" | "reopened")
+            )
+        });
+        let behind_them = self.at > 0
+            && matches!(self.word(self.at - 1), Some("they" | "theyve" | "somebody" | "someone"))
+            && matches!(self.word(self.at), Some("closed" | "shut" | "blocked" | "barred" | "opened"));
+        if closed || behind_them || (self.at..end).any(was) {
             return None;
         }
         for cut in self.at..end {

@@ -25,7 +25,8 @@ const TWICE: &[&str] = &[
 
 /// A word twice in a row says no more than once, and "more small" is "smaller".
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
-    contractions(words, lexemes);
+    contractions(words, lexemes, names);
+    small_slips_of_order(lexemes);
     numbered(lexemes, names);
     judged(words, lexemes, names);
     called_to(lexemes);
@@ -74,7 +75,7 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 }
 
 /// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".
-fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
+fn contractions(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     let mut at = 0;
     while at + 1 < lexemes.len() {
         let (Token::Word(word), Token::Word(next)) = (&lexemes[at].token, &lexemes[at + 1].token) else {
@@ -84,7 +85,9 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
         let (word, next) = (word.clone(), next.clone());
         let written = words.get(lexemes[at].start..lexemes[at].end).unwrap_or_default();
         let (place, behind) = (lexemes[at].clone(), lexemes[at + 1].clone());
-        if let Some(stem) = contracted_is(written, &word, &next) {
+        let is_said_of = contracted_is(written, &word, &next)
+            .or_else(|| named_is(written, &word, (&lexemes[at], &lexemes[at + 1]), names));
+        if let Some(stem) = is_said_of {
             lexemes.splice(at..=at, [word_at(&place, stem), word_at(&place, "is")]);
         } else if ["on", "inside", "onto", "behind", "under"].contains(&word.as_str()) && next == "there" {
             lexemes[at + 1] = word_at(&behind, "it");
@@ -122,9 +125,86 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
 fn contracted_is<'a>(written: &str, word: &'a str, next: &str) -> Option<&'a str> {
     #[rustfmt::skip]
     const STATES: &[&str] = &["in", "too", "a", "on", "at", "so", "facing", "looking", "way", "always", "really", "just", "very", "not", "got", "ugly", "nice", "far",
-        "much", "blocking", "still", "standing", "behind", "next", "near", "an", "been", "kind", "boring", "broken", "old", "empty", "dirty", "lonely", "quite", "rather", "wrong"];
-    let is_thing = word.len() > 4 && !["thats", "whats", "theres", "wheres", "heres"].contains(&word);
+        "missing", "waiting", "sitting", "the", "stuck", "lost", "bored", "cold", "tired", "much", "blocking", "still", "standing", "behind", "next", "near", "an", "been", "kind", "boring", "broken", "old", "empty", "dirty", "lonely", "quite", "rather", "wrong"];
+    const SHORT: &[&str] = &[
+        "thats", "whats", "theres", "wheres", "heres", "its", "hes", "shes", "lets", "whos", "hows", "whens",
+    ];
+    let is_thing = word.len() > 2 && !SHORT.contains(&word);
     if is_owner(written) && is_thing && STATES.contains(&next) { word.get(..word.len() - 1) } else { None }
+}
+
+/// "Bo's parched": somebody by name, and no thing of his behind.
+fn named_is<'a>(
+    written: &str,
+    word: &'a str,
+    (own, next): (&Lexeme, &Lexeme),
+    names: &Names<'_>,
+) -> Option<&'a str> {
+    const HIS: &[&str] = &[
+        "side", "left", "right", "front", "back", "rear", "place", "name", "new", "old", "own", "size",
+        "height", "spot", "home",
+    ];
+    let stem = word.get(..word.len().checked_sub(1)?)?;
+    let is_name = written.starts_with(char::is_uppercase)
+        && is_owner(written)
+        && names.exact(std::slice::from_ref(&word_at(own, stem))).is_some();
+    let is_state = matches!(&next.token, Token::Word(next) if !HIS.contains(&next.as_str()))
+        && category(std::slice::from_ref(next)).is_none()
+        && longest(std::slice::from_ref(next), super::super::paint::PAINTS).is_none()
+        && longest(std::slice::from_ref(next), OF_IT).is_none();
+    (is_name && is_state).then_some(stem)
+}
+
+/// Words that slip in where they say nothing: "bring me please the scooter", "if there's still a parcel", "the tallest tree here",
+/// "chuck a dog in beside her"; and limes, which are counted as trees are.
+fn small_slips_of_order(lexemes: &mut Vec<Lexeme>) {
+    let word = |lexemes: &[Lexeme], at: usize| match lexemes.get(at).map(|lexeme| &lexeme.token) {
+        Some(Token::Word(word)) => word.clone(),
+        _ => String::new(),
+    };
+    let mut at = 1;
+    while at + 1 < lexemes.len() {
+        let (before, own, next) = (word(lexemes, at - 1), word(lexemes, at), word(lexemes, at + 1));
+        let is = |word: &str, words: &[&str]| words.contains(&word);
+        let superlative = || (at.saturating_sub(3)..at - 1).any(|from| word(lexemes, from).ends_with("est"));
+        let idle = match own.as_str() {
+            "please" => is(&before, &["me", "us"]) && is(&next, &["the", "that", "this", "a", "an"]),
+            // "Bring me the scooter here" moves it.
+            "me" | "us" => {
+                is(&before, &["bring", "fetch", "get"])
+                    && is(&next, &["the", "that", "this"])
+                    && lexemes.iter().any(|lexeme| lexeme.token == Token::Word("here".to_owned()))
+            }
+            "still" => is(&before, &["theres", "is", "are"]) && is(&next, &["a", "an", "any", "some"]),
+            "here" => {
+                at > 2
+                    && superlative()
+                    && category(&lexemes[at - 1..at]).is_some()
+                    && is_mark(&lexemes[at + 1])
+            }
+            "in" => {
+                is(&next, &["beside", "next", "behind", "near", "by"])
+                    && category(&lexemes[at - 1..at]).is_some()
+                    && is(
+                        &word(lexemes, 0),
+                        &["chuck", "throw", "pop", "bung", "stick", "put", "drop", "plonk", "squeeze"],
+                    )
+            }
+            _ => false,
+        };
+        if idle {
+            lexemes.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+    for at in 1..lexemes.len() {
+        let counted = super::super::numbers::count(&lexemes[at - 1..at]).is_some();
+        let every = matches!(word(lexemes, at + 1).as_str(), "every" | "each");
+        if word(lexemes, at) == "limes" && (counted && !(at > 1 && word(lexemes, at - 2) == "the") || every) {
+            lexemes[at] = word_at(&lexemes[at], "lime");
+        }
+    }
 }
 
 /// Who is meant by "we'll" and the like.

@@ -1,4 +1,6 @@
 //! What joins wishes, and what is put before and behind them and says nothing.
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
 
 /// What joins two wishes.
@@ -53,3 +55,30 @@ pub(super) const CODA: &Phrases = &Phrases::of(&["please", "thanks", "thank you"
     "for later", "for tonight", "for tomorrow", "for the weekend", "for the kids", "for the children", "for the visitors", "for visitors", "for the guests", "for the tourists", "for the customers", "for the party", "for the wedding", "for the show",
     "for the photo", "for the parade", "for the market", "for the festival", "for the students", "for people", "for the people", "for passers by", "for everyone to see", "for everyone to use", "for everyone to enjoy", "straight away", "this instant", "sharpish", "okey dokey", "dont you think", "do you not think", "dont you think so", "wouldnt you agree", "not where he is", "not where he is now", "not where she is", "not where she is now", "not where they are", "not where they are now", "not over there", "kthx",
     "thank u", "thankyou", "thanx", "cheers then", "appreciate it", "id appreciate it", "i would appreciate it", "if you could please", "god bless", "bless you", "amen", "there you go", "there we go", "and that is that", "i beg of you", "pretty please", "with a cherry on top", "not on the ground", "and not on the ground", "not on the floor", "not more", "no more than that", "no more no less", "not more than that", "and not more", "and no more"]);
+
+/// "Too" before a word of which there is too much.
+fn is_too_much(lexemes: &[Lexeme]) -> bool {
+    const GOES_ON: &Phrases = &Phrases::of(&[
+        "and", "please", "then", "thanks", "but", "plus", "also", "thank", "with", "put", "add", "paint",
+        "move", "remove", "make",
+    ]);
+    longest_phrase(lexemes, &["too"]).is_some()
+        && matches!(lexemes.get(1).map(|next| &next.token), Some(Token::Word(word)) if !GOES_ON.contains(word))
+}
+
+/// Every word that joins wishes or is polite, so that none is taken for a misspelling.
+pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
+    JOINTS.iter().chain(POLITE).chain(CODA).flat_map(|phrase| phrase.split(' '))
+}
+
+/// How many words at the start join two things or wishes.
+pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
+    match lexemes.first().map(|lexeme| &lexeme.token) {
+        Some(Token::Comma | Token::Break) => Some(1),
+        // "Next to the Campus Clinic" is no joint and something on the campus.
+        _ if longest_phrase(lexemes, &["first aid", "next to"]).is_some() => None,
+        // "Too bright" is no joint and something bright.
+        _ if is_too_much(lexemes) => None,
+        _ => longest_phrase(lexemes, JOINTS),
+    }
+}

@@ -48,6 +48,7 @@ const IN_COLOUR: &Phrases = &Phrases::of(&["in", "into", "to", "a", "an", "the",
     "dressed", "wearing"]);
 /// Behind it.
 const COLOUR: &Phrases = &Phrases::of(&[
+    "coat of paint",
     "colour",
     "color",
     "paint",
@@ -66,7 +67,7 @@ const COLOUR: &Phrases = &Phrases::of(&[
 ]);
 /// What something that is asked for does where it stands.
 #[rustfmt::skip]
-const PLACED: &Phrases = &Phrases::of(&["placed", "put", "parked", "planted", "installed", "built", "added", "set up", "wanted", "needed", "required", "missing",
+const PLACED: &Phrases = &Phrases::of(&["posted", "stationed", "hidden", "stored", "moored", "raised", "hoisted", "pitched", "laid out", "placed", "put", "parked", "planted", "installed", "built", "added", "set up", "wanted", "needed", "required", "missing",
     "located", "positioned", "standing", "sitting", "waiting", "set", "erected", "put up", "put down", "dropped", "lying", "situated",
     "hanging", "spawned", "created", "mounted", "stood", "squeezed in", "fitted", "inserted", "lined up", "overdue", "lacking", "requested",
     "popped", "stuck", "left", "due", "welcome", "in order", "here", "leaning", "resting", "growing", "perched", "tucked", "nestled", "moved in"]);

@@ -300,7 +300,9 @@ impl Finder<'_> {
         let mut things: Vec<EntityId> = found.into_iter().map(|(_, id)| id).collect();
         if let Some(except) = &reference.except {
             // "But the tallest" is that one alone.
-            let is_one = except.count == Count::One && except.choice != Choice::Open;
+            let is_nearest = matches!(except.relation, Some(Stands::NearestTo(..)));
+            let is_one = except.count == Count::One
+                && (except.choice != Choice::Open || is_nearest && !plural(except));
             let spared = if is_one { vec![self.one(except)?] } else { self.candidates(except)? };
             things.retain(|thing| !spared.contains(thing));
         }

@@ -46,7 +46,7 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
     }
-    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["if", "case", "room", "space"].contains(&word.as_str()))) {
+    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["if", "case", "room", "space", "thats", "bigger", "larger", "smaller", "it", "its"].contains(&word.as_str()))) {
         *lexemes = told_by(lexemes, BEFORE_ALL);
     }
 }

@@ -60,6 +60,8 @@ const USUAL: &[(&str, &str)] = &[
     ("shold", "should"),
     ("woud", "would"),
     ("tow", "two"),
+    ("toward", "towards"),
+    ("tress", "trees"),
     ("ona", "on"),
     ("nera", "near"),
     ("pleas", "please"),
@@ -81,6 +83,10 @@ const USUAL: &[(&str, &str)] = &[
     ("tabel", "table"),
     ("tabels", "tables"),
 ];
+
+/// Behind "tow", that it is an order and no slip of "two".
+#[rustfmt::skip]
+const TOWED: &[&str] = &["the", "teh", "that", "this", "it", "my", "his", "her", "away", "them", "those", "these", "our", "off", "truck", "trucks", "both", "all", "every"];
 
 /// How one spelling comes from another, the likeliest slip first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -114,6 +120,16 @@ pub(super) fn correct(
         let here = at;
         at += 1;
         let Token::Word(word) = &lexemes[here].token else { continue };
+        // "Tow the car" is an order, and "tow benches" are two.
+        let is_tow = word == "tow"
+            && match lexemes.get(here + 1).map(|next| &next.token) {
+                Some(Token::Word(next)) => TOWED.contains(&next.as_str()),
+                None | Some(Token::Comma | Token::Break | Token::Id(_)) => true,
+                _ => false,
+            };
+        if is_tow {
+            continue;
+        }
         let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());
         if right.is_none()
             && (own.contains(word) || is_known(word) || names.has_word(word) || streets.has_word(word))

@@ -204,9 +204,19 @@ pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
         "that road",
         "this road",
     ]);
+    #[rustfmt::skip]
+    const SHALL_BE: &Phrases = &Phrases::of(&["has to be closed", "must be closed", "should be closed", "needs to be closed", "has to be shut", "must be shut", "should be shut", "needs to be shut", "needs closing", "has to close", "must close",
+        "can be opened", "should be opened", "must be opened", "has to be opened", "can be reopened", "should be reopened"]);
     let found = (1..lexemes.len()).find_map(|at| {
-        let verb = longest_phrase(&lexemes[at..], VERBS)?;
-        let it = longest_phrase(&lexemes[at + verb..], IT)?;
+        // "They're digging up Oak Street, so it has to be closed".
+        let told = longest_phrase(&lexemes[at..], IT)
+            .filter(|words| longest_phrase(&lexemes[at + words..], SHALL_BE).is_some());
+        let (verb, it) = if let Some(words) = told {
+            (0, words)
+        } else {
+            let verb = longest_phrase(&lexemes[at..], VERBS)?;
+            (verb, longest_phrase(&lexemes[at + verb..], IT)?)
+        };
         let end = at + verb + it;
         // "Oak Street goes car-free, shut it" says it twice.
         let is_said = (0..at).any(|at| {
@@ -219,10 +229,14 @@ pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
         if is_said {
             return None;
         }
-        let is_whole = lexemes.get(end).is_none_or(is_mark)
+        let is_whole = told.is_some()
+            || lexemes.get(end).is_none_or(is_mark)
             || longest_phrase(
                 &lexemes[end..],
-                &["for", "again", "off", "please", "to", "so", "because", "down", "up", "now"],
+                &[
+                    "for", "again", "off", "please", "to", "so", "because", "down", "up", "now", "and",
+                    "already", "then",
+                ],
             )
             .is_some();
         let mut named = (0..at).filter_map(|from| Some((from, streets.at(&lexemes[from..at])?.words)));

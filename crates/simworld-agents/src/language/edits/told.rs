@@ -108,6 +108,14 @@ impl Reader<'_> {
         })
     }
 
+    /// "The teenagers drop everything on the ground": who does what, before a verb that orders nothing.
+    pub(super) fn others_do(&self, start: usize, verb: usize) -> bool {
+        let before = &self.lexemes[start..verb];
+        let the = longest_phrase(before, &["the", "my", "our", "these", "those"]);
+        longest_phrase(before, CROWD).is_some()
+            || the.is_some() && self.word(verb - 1).is_some_and(|word| word.ends_with('s'))
+    }
+
     fn sets_a_condition(&self, from: usize, end: usize) -> bool {
         const CONDITIONS: &Phrases = &Phrases::of(&[
             "if",
@@ -138,7 +146,7 @@ impl Reader<'_> {
     }
 
     /// "I want a unicorn": a wish for something new.
-    fn wishes_for_new(&self, from: usize, end: usize) -> bool {
+    pub(super) fn wishes_for_new(&self, from: usize, end: usize) -> bool {
         (from..end).any(|at| {
             longest_phrase(&self.lexemes[at..end], WISHES).is_some_and(|words| {
                 let rest = &self.lexemes[at + words..end];
@@ -147,12 +155,12 @@ impl Reader<'_> {
         })
     }
 
-    fn is_read_as_wish(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {
+    pub(super) fn is_read_as_wish(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {
         let mut reader = Reader { at: from, ..self.up_to(end) };
         reader.wish(end).is_ok_and(|wishes| wishes.iter().flatten().all(is_known))
     }
 
-    fn may_take_back(&self, from: usize, end: usize) -> bool {
+    pub(super) fn may_take_back(&self, from: usize, end: usize) -> bool {
         (from..end).any(|at| {
             let rest = &self.lexemes[at..end];
             // "The red bench gets wet" is no colour that is asked for.

@@ -45,6 +45,51 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("P , one each|every M , Q", "P every M , Q"),
     ("every|each M between A and B , C", "C every M between A and B"),
     ("every|each M along|around|round A , C", "C every M along A"),
+    // Rows and things that are told as statements.
+    ("P D A should|must|shall|could|ought to|- be placed|put|planted|set|installed|erected|built|hung|stood up|- every|each M", "P put D A every M"),
+    ("P D A should|must|shall|could|ought to|- stand|go every|each M", "P put D A every M"),
+    ("on the left of A D B should|must|shall|could be installed|placed|planted|put|built|erected|added|set up|-", "put D B to the left of A"),
+    ("on the right of A D B should|must|shall|could be installed|placed|planted|put|built|erected|added|set up|-", "put D B to the right of A"),
+    ("M A D B would|might|could look|be nice|lovely|good|great|perfect|fine|well|pretty Q", "add D B M A"),
+    ("the A goes|should|must|has|needs|is|shall to|- go|stand|be|- at least M B", "add a A at least M B"),
+    ("put|place|set|the the|- A at least M from B", "add a A at least M from B"),
+    ("put|place|set the A at least M away from B", "add a A at least M away from B"),
+    ("the A goes|should|must|has|shall to|- go|stand|be|- M B", "add a A M B"),
+    // Names and sizes in other words.
+    ("P the A is|are now|hereby|henceforth|officially officially|- called|named B", "name the A B"),
+    ("the A answers|listens to the name of|- B", "name the A B"),
+    ("A answers|listens to the name of B", "name A B"),
+    ("P A answers|listens to the name of B", "name A B"),
+    ("P quadruple the size of A", "make A four times as big"),
+    ("P quadruple A", "make A four times as big"),
+    ("A might|may|could just|- as well be B", "A should be B"),
+    ("A should|must|has|have|could|can to|- be fetched|taken|picked|collected up|- and left|put|placed|parked|set B", "move A B"),
+    ("A should|must|could turn round|around and look|face|gaze at|to|towards|- B", "A should face B"),
+    ("P A to behind B", "P A behind B"),
+    ("P A to beside B", "P A beside B"),
+    ("P A to near B", "P A near B"),
+    ("P A to next to B", "P A next to B"),
+    ("P A to in front of B", "P A in front of B"),
+    ("P A to the front of B", "P A in front of B"),
+    ("B is|looks|seems C , get|have|let|send|bring A to|- keep him|her|it|them company", "move A next to B"),
+    ("A would|might|could be|look|feel|seem B with D C", "A needs D C"),
+    ("A can|must|should|may|have|has|could to|- go|leave|disappear except|but for|- B", "remove A except B"),
+    ("itd|it|that|thatd would|- P if you|we|somebody|someone planted|put|placed|added|installed|set|parked|built|stood D A", "put D A"),
+    ("D A and D B come|comes|walk|walks|step|steps out|over|up|along|- and stand|sit|wait|pose|work|stay C", "put D A and D B C"),
+    ("D A comes|walks|steps out|over|up|along|- and stands|sits|waits|poses|works|stays B", "put D A B"),
+    ("A in a line|row between B and C , nicely|all|perfectly|- even|evenly|straight Q", "A evenly between B and C"),
+    ("A has|have|must|should|needs|ought to|- be closed|shut|blocked between B and C", "close A between B and C"),
+    ("A every M on|along B , on both sides , Q", "A every M on both sides of B"),
+    ("A every M on|along B on both sides , Q", "A every M on both sides of B"),
+    // How many.
+    ("how many|much A are|is left|remaining|laying|lying|standing|hanging around|about|here|there|- Q", "how many A are there"),
+    ("how many A did they|you|we leave|give|put|plant us|here|- Q", "how many A are there"),
+    ("P tally|number|count of A here|there|altogether", "how many A are there"),
+    ("how many A does|do B have", "how many A are in B"),
+    // Which of several.
+    ("which|what of A is the B", "list the B of A"),
+    ("of A remove|delete|fell|scrap|ditch the B", "remove the B of A"),
+    ("of A paint the B C", "paint the B of A C"),
     // Distances that are told first.
     ("M A , D B", "add D B M A"),
     ("M A i|we|id|wed want|need|like|love|imagine|have|put|- D B", "add D B M A"),
@@ -104,7 +149,7 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("A says|reckons|thinks|insists|suggests|demands that|- the B belongs|goes C", "the B should go C"),
     ("A says|reckons|thinks|insists|suggests|demands that|- D B belongs|goes C", "add D B C"),
     // New things, told by other verbs.
-    ("O dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "O put D A"),
+    ("O hide|store|raise|deposit|unload|lodge|tie|chain|bolt|dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "O put D A"),
     ("O put|place|add|set|build|light|plant|dig|install|park|pitch me|us|them D A", "O put D A"),
     ("i am|was wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
     ("im wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
@@ -206,6 +251,15 @@ pub(super) const TURNS: &[(&str, &str)] = &[
 /// As [`TURNS`], of what would be misunderstood otherwise.
 #[rustfmt::skip]
 pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
+    ("D A , thats what B needs|wants|lacks|deserves C it", "add D A C B"),
+    ("P bigger|larger|taller|smaller , say|maybe|perhaps twice Q", "P twice Q"),
+    ("P bigger|larger|taller|smaller , say|maybe|perhaps half Q", "P half Q"),
+    ("for A it has|must|should|ought|needs to|- be B , P", "make it B , P"),
+    ("its to be B , P", "make it B , P"),
+    // "It" is where one is looked for, and not what is not there.
+    ("P if there is no A near|by|beside|outside|at B , Q put|add|place|build|set|stand one C it", "if there is no A near B , put a A C B"),
+    ("P if theres no A near|by|beside|outside|at B , Q put|add|place|build|set|stand one C it", "if there is no A near B , put a A C B"),
+    ("P if there isnt a|an|any A near|by|beside|outside|at B , Q put|add|place|build|set|stand one C it", "if there is no A near B , put a A C B"),
     // "One" is of what is not there, and not of where it is looked for.
     ("if there is|isnt no|any A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
     ("if theres|there no|isnt any|- A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
@@ -218,5 +272,5 @@ pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
 ];
 /// What is said by the way, in the words of who asks kindly.
 #[rustfmt::skip]
-pub(super) const ASIDES: &Phrases = &Phrases::of(&["while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
+pub(super) const ASIDES: &Phrases = &Phrases::of(&["come to think of it", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
     "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);

@@ -41,7 +41,7 @@ pub(super) static VERBS: LazyLock<Index<Verb>> = LazyLock::new(|| Index::of(VERB
 #[rustfmt::skip]
 const VERB_ROWS: &[(&[&str], Verb)] = &[
     (&["add", "spawn", "create", "build", "insert", "plant", "install", "instantiate", "generate", "give me",
-        "gimme", "there should be", "there must be", "there needs to be", "there has to be", "there ought to be",
+        "gimme", "decided on", "we decided on", "i decided on", "settled on", "we settled on", "we agreed on", "agreed on", "there should be", "there must be", "there needs to be", "there has to be", "there ought to be",
         "let there be", "i want", "i need", "i would like", "id like", "i would love", "id love", "we need",
         "we want", "we could use", "i could use", "throw in", "erect", "introduce", "include", "have",
         "i would like to have", "id like to have", "i want to have", "i would like to see", "id like to see",
@@ -242,7 +242,7 @@ const WAY_ROWS: &[(&[&str], Way)] = &[
         "wherever you want", "somewhere nice", "any place", "to the map", "on the map", "somewhere on the map",
         "to town", "into the scene", "at some place", "where there is room", "where there is space",
         "wherever there is room", "wherever there is space", "wherever it fits", "where it fits", "somewhere free",
-        "to the campus", "on the campus", "somewhere on campus", "on campus", "in the harbour", "in the old town",
+        "on the quay", "at the quay", "on the quayside", "around the harbour", "in the quarter", "around the quarter", "on the waterfront", "to the campus", "on the campus", "somewhere on campus", "on campus", "in the harbour", "in the old town",
         "anywhere on campus", "anywhere you please", "where you please", "wherever you please", "where you think best", "wherever you think best", "where you see fit", "wherever you see fit", "out of frame", "somewhere around", "wherever theres room", "wherever theres space", "anywhere in it", "anywhere inside it", "anywhere in there", "anywhere there", "somewhere in it", "wherever in it"], Way::Anywhere),
 ];
 
@@ -358,7 +358,7 @@ pub(in crate::language) const SKY_ROWS: &[(&[&str], Sky)] = &[
         "stormy", "rainstorm", "rain hard", "thunderstorm", "a lot of rain", "rain cats and dogs", "raining cats and dogs", "pelt down", "pelting down", "tip it down", "chuck it down", "torrential rain", "deluge", "cloudburst", "heavens open", "bucket down", "soaking", "pissing down", "pouring down", "bucketing down"], Sky::Rain(20.0)),
     (&["snow", "snowy", "snowing", "snowfall", "snows", "snow weather", "snowflakes", "white christmas", "winter wonderland", "flurries"], Sky::Snow(3.0)),
     (&["light snow", "a little snow", "snow lightly", "snow a little", "some snow"], Sky::Snow(1.0)),
-    (&["heavy snow", "blizzard", "snowstorm", "snow heavily", "heavily snowing"], Sky::Snow(10.0)),
+    (&["heavy snow", "blizzard", "snow storm", "snowstorm", "snow heavily", "heavily snowing"], Sky::Snow(10.0)),
     (&["fog", "foggy", "mist", "misty", "hazy", "haze", "some fog", "foggy weather", "murky", "pea soup"], Sky::Fog(200.0)),
     (&["thick fog", "dense fog", "heavy fog", "very foggy", "really foggy"], Sky::Fog(60.0)),
     (&["light fog", "slightly foggy", "a little fog", "a bit foggy", "light mist"], Sky::Fog(600.0)),
@@ -399,7 +399,7 @@ pub(super) const ENDINGS: &[(&[&str], Sky)] = &[
 pub(super) const SKY_NOISE: &Phrases = &Phrases::of(&["it", "its", "it is", "be", "a", "an", "the", "with", "some", "and",
     "weather", "sky", "is", "to", "into", "time", "of", "day", "it to be", "want", "should be", "should",
     "there is", "there be", "in", "at", "let", "make", "set", "change", "turn", "switch", "have", "lets", "please",
-    "time of day", "time to", "show", "show me", "show us", "quarter", "old town", "crisp", "heavy", "lovely", "quiet", "gentle", "thick", "steady", "beautiful", "give us", "give me", "bring", "bring on", "i want", "id like", "i would like", "now",
+    "time of day", "time to", "its to be", "over the whole quarter", "over the quarter", "over the whole city", "over the city", "over the whole campus", "over the campus", "over the harbour", "over the whole harbour", "over the old town", "over the town", "over everything", "all over the place", "show", "show me", "show us", "quarter", "old town", "crisp", "heavy", "lovely", "quiet", "gentle", "thick", "steady", "beautiful", "give us", "give me", "bring", "bring on", "i want", "id like", "i would like", "now",
     "very", "get", "conditions", "become", "there should be", "on", "start", "begin", "starts", "here", "today",
     "scene", "city", "us", "out", "outside", "looks", "look", "like", "bit", "little", "made", "clock", "oclock",
     "o clock", "that", "need", "we", "i", "so", "everything", "put", "weather to", "add", "will", "would", "could",

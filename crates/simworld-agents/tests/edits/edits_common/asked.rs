@@ -4,7 +4,7 @@ use crate::tables::lines_of;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 17] = [
+const SETS: [&str; 19] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -22,6 +22,8 @@ const SETS: [&str; 17] = [
     "fifteenth.edits",
     "sixteenth.edits",
     "seventeenth.edits",
+    "eighteenth.edits",
+    "nineteenth.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
