@@ -1,5 +1,5 @@
 //! Robots from files at work: a six-axis arm from URDF reaches for places, a robot on wheels from MJCF drives an eight. Any other
-//! file is read, weighed and let fall with `--look-at`.
+//! file is read, weighed, let fall and drawn with `--look-at`.
 //!
 //! ```sh
 //! cargo run --release --example robot -- --out out/robot
@@ -15,6 +15,7 @@ use simworld_examples::folder::make_folder;
 use simworld_examples::robot::{ARM, Bench, ROVER, Reach, Roll, picture, reach, roll};
 use simworld_physics::RobotConfig;
 use simworld_physics::robot::{ImportOptions, mjcf, urdf};
+use simworld_render::{RenderConfig, RenderError, Renderer};
 
 /// How far the tip may be from its target, m, and how far a speed from what was told, as a share.
 const NEAR: f64 = 0.005;
@@ -28,7 +29,7 @@ struct Arguments {
     #[arg(long, default_value = "out/robot")]
     out: PathBuf,
     /// Reads this file instead, `.urdf` or MJCF as `.xml`, with its meshes from its folder; says what it holds and what was
-    /// approximated, and lets it stand for two seconds.
+    /// approximated, lets it stand for two seconds, and draws it as it is seen then.
     #[arg(long)]
     look_at: Option<PathBuf>,
 }
@@ -36,7 +37,7 @@ struct Arguments {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match &arguments.look_at {
-        Some(path) => look_at(path).map(|()| 0),
+        Some(path) => look_at(path, &arguments.out).map(|()| 0),
         None => run(&arguments.out),
     };
     match done {
@@ -98,7 +99,7 @@ fn roll_table(rolls: &[Roll]) -> Table {
     table
 }
 
-fn look_at(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
+fn look_at(path: &Path, out: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let folder = path.parent().map(Path::to_owned);
     let options = ImportOptions { folder, ..ImportOptions::default() };
@@ -124,5 +125,23 @@ fn look_at(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
         let at = pose.translation.vector;
         println!("after two seconds without a command {first} is at {:.3} {:.3} {:.3} m", at.x, at.y, at.z);
     }
+    draw(&bench, path, out)
+}
+
+/// Writes what the robot of a file looks like; without an adapter it says what is missing, and that is all.
+fn draw(bench: &Bench, path: &Path, out: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let mut renderer = match Renderer::new(&RenderConfig::default()) {
+        Ok(renderer) => renderer,
+        Err(error @ RenderError::NoAdapter { .. }) => {
+            println!("not drawn: {error}");
+            return Ok(());
+        }
+        Err(error) => return Err(error.into()),
+    };
+    make_folder(out)?;
+    let name = path.file_stem().map_or_else(|| "robot".into(), |name| name.to_string_lossy());
+    let picture = out.join(format!("{name}.png"));
+    bench.portrait(&mut renderer, [800, 600])?.write_png(&picture)?;
+    println!("{}", picture.display());
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Robots from files at work: an arm that reaches for places, and one on wheels that drives an eight.
 
 mod picture;
+mod portrait;
 mod reach;
 mod roll;
 
