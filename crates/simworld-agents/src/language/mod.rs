@@ -70,6 +70,7 @@ mod slips;
 mod sorts;
 mod speech;
 mod spelling;
+mod stands;
 mod statements;
 mod staying;
 pub(crate) mod streets;

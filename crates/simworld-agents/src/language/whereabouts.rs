@@ -36,6 +36,21 @@ const THAN: &[(&[&str], (Measure, bool))] = &[
 ];
 
 impl Parser<'_> {
+    /// "Within five metres of the lamp": a distance behind such words and the thing that it is from; nothing is read where that is not all there.
+    fn distance_from(&mut self, words: &[&str], depth: u32) -> Result<Option<(f64, Reference)>, PlanError> {
+        let start = self.at;
+        if self.eat_any(words)
+            && let Some((reach, words)) = numbers::length(self.rest())
+        {
+            self.at += words;
+            if self.eat_any(OF) {
+                return Ok(Some((reach, self.reference(depth + 1)?)));
+            }
+        }
+        self.at = start;
+        Ok(None)
+    }
+
     /// On a street, in an area, or within a distance.
     pub(super) fn on_ground(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
         let start = self.at;
@@ -50,24 +65,12 @@ impl Parser<'_> {
             self.at = start;
             return Ok(None);
         };
-        if self.eat_any(WITHIN)
-            && let Some((reach, words)) = numbers::length(self.rest())
-        {
-            self.at += words;
-            if self.eat_any(OF) {
-                return Ok(Some(Stands::Within(reach, Box::new(self.reference(depth + 1)?))));
-            }
+        if let Some((reach, from)) = self.distance_from(WITHIN, depth)? {
+            return Ok(Some(Stands::Within(reach, Box::new(from))));
         }
-        self.at = start;
-        if self.eat_any(BEYOND)
-            && let Some((reach, words)) = numbers::length(self.rest())
-        {
-            self.at += words;
-            if self.eat_any(OF) {
-                return Ok(Some(Stands::Beyond(reach, Box::new(self.reference(depth + 1)?))));
-            }
+        if let Some((reach, from)) = self.distance_from(BEYOND, depth)? {
+            return Ok(Some(Stands::Beyond(reach, Box::new(from))));
         }
-        self.at = start;
         if self.eat_any(ON_STREET) {
             self.eat_any(&["the"]);
             if let Some(street) = streets.at(self.rest()) {

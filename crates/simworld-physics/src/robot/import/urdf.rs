@@ -130,20 +130,18 @@ fn link(
 ) -> Result<LinkDescription, RobotError> {
     let mut link = LinkDescription::new(required(node, "name", "give every link a name of its own")?);
     for collision in children(node, "collision") {
-        let geometry = child(collision, "geometry").ok_or_else(|| RobotError::Missing {
-            place: place(collision),
-            what: "<geometry>".to_owned(),
-            mend: "say what form it has",
-        })?;
         let link_from_solid = origin(collision)?;
-        let (forms, _) = forms(geometry, reading, Use::Met)?;
+        let forms = match geometry(collision, reading)? {
+            Geometry::Form(form) => vec![form],
+            Geometry::Mesh { place, surface } => mesh::solids(reading, &place, surface.as_ref()),
+        };
         for form in forms {
             let (material, kinds, color) = (Material::Plastic, Kinds::default(), None);
             link.solids.push(LinkSolid { form, link_from_solid, material, kinds, color });
         }
     }
     color::lend(&mut link.solids, seen_color(node, palette)?);
-    see(&mut link, visuals(node, palette, reading)?);
+    see(&mut link, visuals(node, palette, reading));
     match child(node, "inertial") {
         Some(inertial) => weigh(&mut link, inertial, reading)?,
         None => reading.weigh(&mut link, &|| place(node)),
@@ -184,47 +182,55 @@ fn weigh(
 }
 
 /// What is seen of a link; nothing if any of it cannot be drawn, so that the link is seen as what is met.
-fn visuals(
-    link: Node<'_, '_>,
-    palette: &Palette<'_>,
-    reading: &mut Reading<'_>,
-) -> Result<Vec<LinkVisual>, RobotError> {
+fn visuals(link: Node<'_, '_>, palette: &Palette<'_>, reading: &mut Reading<'_>) -> Vec<LinkVisual> {
     let mut all = Vec::new();
-    for visual in children(link, "visual") {
-        let Some(geometry) = child(visual, "geometry") else { continue };
-        let color = color_of(visual, palette)?;
-        let link_from_visual = origin(visual)?;
+    for visual in children(link, "visual").filter(|visual| child(*visual, "geometry").is_some()) {
         // What is only looked at makes no robot unfit.
-        let seen = forms(geometry, reading, Use::Seen).unwrap_or_else(|error| {
+        let seen = seen(visual, palette, reading).unwrap_or_else(|error| {
             reading.note(place(visual), error.to_string());
-            (Vec::new(), None)
+            None
         });
-        let solid = |form| LinkVisual { form: VisualForm::Solid(form), link_from_visual, color };
-        let seen = match seen {
-            (mut forms, None) => forms.pop().map(solid),
-            (_, Some(surface)) => reading.surface(&surface, &link_from_visual, color),
-        };
         let Some(seen) = seen.filter(|seen| seen.check(&|| place(visual)).is_ok()) else {
             reading.note(place(visual), "is not drawn: the link is seen as what is met of it");
-            return Ok(Vec::new());
+            return Vec::new();
         };
         all.push(seen);
     }
-    Ok(all)
+    all
 }
 
-/// What a form is read for: a mesh becomes solids where it is met, and is a surface where it is seen.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Use {
-    Met,
-    Seen,
-}
-
-fn forms(
-    geometry: Node<'_, '_>,
+/// A visual, if it is read and there is anything to see.
+fn seen(
+    visual: Node<'_, '_>,
+    palette: &Palette<'_>,
     reading: &mut Reading<'_>,
-    purpose: Use,
-) -> Result<(Vec<Form>, Option<Surface>), RobotError> {
+) -> Result<Option<LinkVisual>, RobotError> {
+    let (link_from_visual, color) = (origin(visual)?, color_of(visual, palette)?);
+    Ok(match geometry(visual, reading)? {
+        Geometry::Form(form) => Some(LinkVisual { form: VisualForm::Solid(form), link_from_visual, color }),
+        Geometry::Mesh { surface, .. } => {
+            surface.and_then(|surface| reading.surface(&surface, &link_from_visual, color))
+        }
+    })
+}
+
+/// What a visual or a collision has the form of.
+enum Geometry {
+    Form(Form),
+    /// A mesh, where it stands in the file, and its surface, if that was read.
+    Mesh {
+        place: String,
+        surface: Option<Surface>,
+    },
+}
+
+/// The geometry of a visual or a collision.
+fn geometry(node: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, RobotError> {
+    let geometry = child(node, "geometry").ok_or_else(|| RobotError::Missing {
+        place: place(node),
+        what: "<geometry>".to_owned(),
+        mend: "say what form it has",
+    })?;
     let Some(node) = geometry.children().find(Node::is_element) else {
         let what = "a form".to_owned();
         let mend = "give <box>, <cylinder>, <sphere>, <capsule> or <mesh>";
@@ -237,7 +243,7 @@ fn forms(
             mend: "give it in metres",
         })
     };
-    let form = match node.tag_name().name() {
+    Ok(Geometry::Form(match node.tag_name().name() {
         "box" => {
             let size = exactly::<3>(node, "size", Some(required(node, "size", "give three edges")?))?;
             Form::Box { size: size.unwrap_or_default().into() }
@@ -249,18 +255,14 @@ fn forms(
             let name = required(node, "filename", "name the file of the mesh")?;
             let scale = exactly::<3>(node, "scale", node.attribute("scale"))?.unwrap_or([1.0; 3]);
             let surface = mesh::read(reading, &place(node), name, scale)?;
-            return Ok(match purpose {
-                Use::Met => (mesh::solids(reading, &place(node), surface.as_ref()), None),
-                Use::Seen => (Vec::new(), surface),
-            });
+            return Ok(Geometry::Mesh { place: place(node), surface });
         }
         other => {
             let what = format!("the form <{}>", shortened(other));
             let mend = "give <box>, <cylinder>, <sphere>, <capsule> or <mesh>";
             return Err(RobotError::Unsupported { place: place(node), what, mend });
         }
-    };
-    Ok((vec![form], None))
+    }))
 }
 
 fn kind(node: Node<'_, '_>) -> Result<JointKind, RobotError> {
