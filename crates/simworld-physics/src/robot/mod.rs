@@ -16,6 +16,7 @@ mod mjcf_write;
 mod motor;
 mod physics_body;
 mod solids;
+mod surface;
 mod tree;
 mod visual;
 
@@ -44,8 +45,9 @@ pub use import::{ImportLimits, ImportOptions, Imported, Note};
 use looks::Looks;
 use meeting::Meeting;
 use motor::Motor;
+pub use surface::Surface;
 use tree::Tree;
-pub use visual::{LinkVisual, Surface, VisualForm};
+pub use visual::{LinkVisual, VisualForm};
 
 use crate::apart::Apart;
 pub use crate::apart::Kinds;

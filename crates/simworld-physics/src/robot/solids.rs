@@ -6,7 +6,7 @@ use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::prelude::SharedShape;
 
 use super::description::Form;
-use super::visual::Surface;
+use super::surface::Surface;
 use crate::convert::{from_vector, to_vector};
 use crate::shape::upright;
 
