@@ -346,6 +346,27 @@ fn a_car_that_broke_down_is_passed_when_nobody_comes() {
 }
 
 #[test]
+fn who_is_parked_beside_the_lane_is_no_queue() {
+    let mut town = Town::new();
+    // Before the junction, where others stand who wait for it.
+    let parked = put(&mut town, EntityKind::Car, (98.0, -2.85), (4.5, 1.8));
+    let car = town.car;
+    let mut run = town.run(car, "drive to the hospital");
+    let (mut stood, mut least) = (0, f64::INFINITY);
+    while run.car_at().x < 108.0 {
+        assert_eq!(run.step(), Progress::Running);
+        let world = run.simulation.world();
+        let [own, other] = [car, parked].map(|id| world.entity(id).expect("it is there"));
+        stood += usize::from(own.twist.ground_speed() < 0.1);
+        least = least.min(own.info.shape.planar_distance(own.pose, &other.planar()));
+        assert!(!own.obb().footprints_overlap(&other.obb()), "it drove into it");
+        assert!(stood < 100, "it waits behind it at {:?}", run.car_at());
+    }
+    assert!(least < 1.6, "{least:.2} m: nothing was parked beside the lane");
+    assert_eq!(run.finish(400), Progress::Done);
+}
+
+#[test]
 fn a_blocked_street_is_left_by_turning_round_in_it() {
     let mut town = Town::new();
     // From kerb to kerb, before the next junction.

@@ -160,9 +160,13 @@ impl Finder {
                     let near = polyline::closest(tracks.path(track), &at);
                     let Some(near) = near.filter(|near| near.distance < SWEPT + reach) else { continue };
                     let (back, front) = (near.station - reach, near.station + reach);
+                    let aside = near.distance - reach;
                     match obstacles[first..].iter_mut().find(|other| other.track == track) {
-                        Some(own) => (own.near, own.far) = (own.near.min(back), own.far.max(front)),
-                        None => obstacles.push(body.on(tracks, track, back, front)),
+                        Some(own) => {
+                            (own.near, own.far) = (own.near.min(back), own.far.max(front));
+                            own.aside = own.aside.min(aside);
+                        }
+                        None => obstacles.push(body.on(tracks, track, (back, front), aside)),
                     }
                 }
             }
@@ -225,10 +229,10 @@ impl Foreign {
     }
 
     /// It as an obstacle on a track.
-    fn on(&self, tracks: &Tracks, track: u32, near: f64, far: f64) -> Obstacle {
+    fn on(&self, tracks: &Tracks, track: u32, (near, far): (f64, f64), aside: f64) -> Obstacle {
         let yaw = polyline::at(tracks.path(track), (near + far) * 0.5).1;
         let v = self.velocity.dot(&direction(yaw)).max(0.0);
-        Obstacle { track, near, far, v, stands: self.velocity.norm() < STANDING }
+        Obstacle { track, near, far, aside, v, stands: self.velocity.norm() < STANDING }
     }
 }
 

@@ -9,12 +9,16 @@ use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::otherwise::Otherwise;
 use super::part::Part;
 use super::precedence::{HURRY, Precedence};
+use super::strangers::{self, on_track};
 use super::tracks::{Obstacle, Track, Tracks};
 
 /// Where a vehicle stops before a line, m.
 pub(super) const BEFORE_LINE: f64 = 0.5;
 /// No vehicle is longer, m: an articulated bus, or a truck with its trailer.
 const LONGEST: f64 = 20.0;
+/// Who is slower than this does not go on past a body that leaves less than this beside it, m/s and m.
+const CRAWLS: f64 = 3.0;
+const TO_SIDE: f64 = 0.2;
 
 /// A track as its drivers see it.
 pub(super) struct Lane<'a> {
@@ -179,7 +183,8 @@ impl View<'_> {
             self.follow(gap, speed);
         }
         if !lane.scene.sight.obstacles.is_empty() {
-            self.beware(&lane.scene.sight, lane.track, vehicle.s, self.idm.gap);
+            let half_width = lane.scene.config.vehicle_type(vehicle.row).width * 0.5;
+            self.beware(&lane.scene.sight, lane.track, half_width);
         }
     }
 
@@ -281,10 +286,13 @@ impl View<'_> {
         }
     }
 
-    /// Lets those go first whose leave is older; `at` is where one is on the way, negative before it.
+    /// Lets those go first whose leave is older, and strangers; `at` is where one is on the way, negative before it.
     fn mind_older(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, way: usize, at: f64) {
         let gap = self.idm.gap;
         self.takes_gap = lane.scene.tracks.ways[way].turns_by_gaps;
+        if let Some(distance) = strangers::meets(lane.scene, vehicle, (way, at)) {
+            self.stop_in(distance, gap);
+        }
         lane.part.mind_older(lane.scene, vehicle, (way, at), |precedence| match precedence {
             Precedence::Stop { distance } => self.stop_in(distance, gap),
             Precedence::Slow { acceleration } => self.most = self.most.min(acceleration),
@@ -333,18 +341,22 @@ impl View<'_> {
     }
 
     /// Stops behind foreign bodies on the track.
-    fn beware(&mut self, sight: &Sight<'_>, track: Track, s: f64, gap: f64) {
-        if let Some(obstacle) = first_obstacle(sight, track, s) {
+    fn beware(&mut self, sight: &Sight<'_>, track: Track, half_width: f64) {
+        if let Some(obstacle) = first_obstacle(sight, track, self.s) {
             // Nearer to what stands than to what may move.
-            let closer = if obstacle.v > STANDING { 0.0 } else { gap * 0.5 };
+            let closer = if obstacle.v > STANDING { 0.0 } else { self.idm.gap * 0.5 };
             self.follow(obstacle.near - self.s + closer, obstacle.v);
+        }
+        // Nor does one who stands or crawls go on past a body that has swung into its way beside it.
+        let is_beside = |body: &&Obstacle| (body.near..body.far).contains(&self.s);
+        let mut beside = on_track(sight, track).iter().filter(is_beside);
+        if self.v < CRAWLS && beside.any(|body| body.aside < half_width + TO_SIDE) {
+            self.follow(0.0, 0.0);
         }
     }
 }
 
 /// The first body on a track whose far side is beyond a station.
 fn first_obstacle<'a>(sight: &Sight<'a>, track: Track, beyond: f64) -> Option<&'a Obstacle> {
-    let start = sight.obstacles.partition_point(|obstacle| obstacle.track < track);
-    let mut here = sight.obstacles[start..].iter().take_while(|obstacle| obstacle.track == track);
-    here.find(|obstacle| obstacle.near >= beyond)
+    on_track(sight, track).iter().find(|obstacle| obstacle.near >= beyond)
 }

@@ -117,6 +117,11 @@ impl Asker {
         }
     }
 
+    /// One who is on its way already, or before it; `front` is where, m along it.
+    pub(super) fn on_way(scene: &Scene<'_>, vehicle: &Vehicle, way: usize, front: f64) -> Self {
+        Self::new(scene, &Vehicle { next: way as u32, ..*vehicle }, -front)
+    }
+
     /// Lets it come to its line no sooner than a headway after who goes before it has left room for it there (Newell 2002).
     fn stay_behind(&mut self, before: Option<Self>, driver: &Idm) {
         if let Some(before) = before.filter(|before| before.distance + before.length + driver.gap > 0.0) {
@@ -231,7 +236,7 @@ impl Part {
             return (before.next != EXIT).then(|| Asker::new(scene, before, end - before.s));
         }
         let on_way = self.slabs.queue(tracks.layout.local((tracks.lanes + way) as Track)).last()?;
-        Some(Asker::new(scene, &Vehicle { next: vehicle.next, ..*on_way }, -on_way.s))
+        Some(Asker::on_way(scene, on_way, way, on_way.s))
     }
 
     /// Whether one who asks may go after or before each of those who hold a way.

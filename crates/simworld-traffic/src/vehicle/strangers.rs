@@ -6,7 +6,8 @@ use simworld_core::net::{Aspect, time_over};
 
 use super::Way;
 use super::conflicts::Conflict;
-use super::manager::{STANDING, Scene, Sight};
+use super::junction::horizon;
+use super::manager::{STANDING, Scene, Sight, Vehicle};
 use super::precedence::{Asker, CLEARS, COMES, Comer, EASILY, MARGIN, SIGHT};
 use super::tracks::{Obstacle, Track};
 
@@ -20,14 +21,6 @@ pub(super) fn hinder(scene: &Scene<'_>, asker: &Asker, conflict: &Conflict) -> b
     let Way { from, signal, .. } = tracks.ways[conflict.way as usize];
     let (limit, end) = (tracks.speed[from as usize], tracks.length[from as usize]);
     let way = (tracks.lanes + conflict.way as usize) as Track;
-    let speed = tracks.speed[way as usize];
-    let crosses = |body: &Obstacle| {
-        let clears = time_over(conflict.other.passed() - body.near, body.v, CLEARS, speed.max(3.0));
-        let comes = time_over(conflict.other.enter() - body.far, body.v, COMES, limit.max(body.v));
-        body.near < conflict.other.passed()
-            && clears > asker.time(conflict.own.enter())
-            && asker.gone(conflict) + MARGIN > comes
-    };
     let comes = |body: &Obstacle| {
         let distance = (end - body.far).max(0.0);
         let could_stop = body.v * body.v <= 2.0 * EASILY * distance;
@@ -39,7 +32,42 @@ pub(super) fn hinder(scene: &Scene<'_>, asker: &Asker, conflict: &Conflict) -> b
     let concerns =
         |body: &&Obstacle| body.v > STANDING && conflict.pairs.has(asker.length, body.far - body.near);
     let moving = |track: Track| on_track(&scene.sight, track).iter().filter(concerns);
-    moving(way).any(crosses) || moving(from).any(comes)
+    moving(way).any(|body| crosses(scene, asker, conflict, body)) || moving(from).any(comes)
+}
+
+/// How far ahead of one on its way across, or with leave to cross, the way of a stranger begins who moves on it and would be met
+/// there, m: strangers keep no order of leave, and one that set off late, or against the rules, is not run into. Who could no longer
+/// stop, or is there already, goes on.
+pub(super) fn meets(scene: &Scene<'_>, vehicle: &Vehicle, (way, front): (usize, f64)) -> Option<f64> {
+    if scene.sight.obstacles.is_empty() {
+        return None;
+    }
+    let tracks = scene.tracks;
+    let hardest = scene.config.vehicle_type(vehicle.row).driver.emergency_deceleration;
+    let stopping = vehicle.v * vehicle.v / (2.0 * hardest);
+    let asker = Asker::on_way(scene, vehicle, way, front);
+    let met = |conflict: &&Conflict| {
+        let to_zone = conflict.own.enter() - front;
+        let bodies = on_track(&scene.sight, (tracks.lanes + conflict.way as usize) as Track).iter();
+        let mut moving = bodies
+            .filter(|body| body.v > STANDING && conflict.pairs.has(vehicle.length(), body.far - body.near));
+        (stopping..horizon(vehicle.v)).contains(&to_zone)
+            && moving.any(|body| crosses(scene, &asker, conflict, body))
+    };
+    let zones = tracks.conflicts[way].iter().filter(met).map(|conflict| conflict.own.enter() - front);
+    zones.min_by(f64::total_cmp)
+}
+
+/// Whether a stranger on a way that meets one's own is there when one comes, and would be met.
+fn crosses(scene: &Scene<'_>, asker: &Asker, conflict: &Conflict, body: &Obstacle) -> bool {
+    let tracks = scene.tracks;
+    let limit = tracks.speed[tracks.ways[conflict.way as usize].from as usize];
+    let speed = tracks.speed[tracks.lanes + conflict.way as usize];
+    let clears = time_over(conflict.other.passed() - body.near, body.v, CLEARS, speed.max(3.0));
+    let comes = time_over(conflict.other.enter() - body.far, body.v, COMES, limit.max(body.v));
+    body.near < conflict.other.passed()
+        && clears > asker.time(conflict.own.enter())
+        && asker.gone(conflict) + MARGIN > comes
 }
 
 /// Whether strangers behind a place in a lane let somebody in whose rear would be there: with this much room at least, m, and no
@@ -58,7 +86,7 @@ pub(super) fn let_in(
 }
 
 /// Those on a track.
-fn on_track<'a>(sight: &Sight<'a>, track: Track) -> &'a [Obstacle] {
+pub(super) fn on_track<'a>(sight: &Sight<'a>, track: Track) -> &'a [Obstacle] {
     let from = sight.obstacles.partition_point(|body| body.track < track);
     let count = sight.obstacles[from..].partition_point(|body| body.track == track);
     &sight.obstacles[from..from + count]

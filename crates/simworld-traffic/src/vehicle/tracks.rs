@@ -38,6 +38,8 @@ pub(crate) struct Obstacle {
     /// Its near and its far side, m along the track.
     pub(crate) near: f64,
     pub(crate) far: f64,
+    /// How far beside the middle of the track it begins, m; not above zero where it covers it.
+    pub(crate) aside: f64,
     /// How fast it goes along the track, m/s, zero if it stands or comes towards one.
     pub(crate) v: f64,
     /// Whether it stands.

@@ -2,9 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use nalgebra::UnitQuaternion;
+use simworld_core::control::Driver;
 use simworld_core::geometry::{Aabb, Obb, Point2, Vector2, Vector3, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
+use simworld_core::ops::{sin, sin_cos, tan};
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
 
 use super::watch::Own;
@@ -79,22 +82,42 @@ pub(super) fn look(scene: &dyn Scene, own: &Own<'_>, near: f64, far: f64) -> Vec
     seen
 }
 
-/// Whether a vehicle would touch somebody or something that it does not touch yet, if it were so far ahead, m, or back, with so
-/// much room to its sides, m.
-pub(super) fn would_touch(own: &Own<'_>, around: &[Seen], ahead: f64, beside: f64) -> bool {
-    let way = own.ahead * ahead;
-    let grown = |by: f64, moved: Vector2| {
-        let mut solid = own.solid;
-        solid.pose.translation.vector += Vector3::new(moved.x, moved.y, 0.0);
+/// Whether a vehicle would touch somebody or something that it does not touch yet, or come nearer to its sides than that room, m,
+/// if it went so far ahead, m, negative backwards, with its wheels at an angle, radians, positive to the left.
+pub(super) fn would_touch(own: &Own<'_>, around: &[Seen], (ahead, steer): (f64, f64), beside: f64) -> bool {
+    let grown = |mut solid: Obb, by: f64| {
         solid.half_extents += Vector3::new(by, by, 0.0);
         solid
     };
-    let (here, there) = (grown(0.0, Vector2::zeros()), grown(beside, way));
-    let mut near =
-        around.iter().filter(|other| (other.at - own.at).norm() < own.half_length + other.half_length + 3.0);
+    let reach = own.half_length + ahead.abs() + 3.0;
+    let moved = [0.5, 1.0].map(|share| rolled(own, ahead * share, steer));
+    let mut near = around.iter().filter(|other| (other.at - own.at).norm() < reach + other.half_length);
     near.any(|other| {
-        // Who is nearer to the middle than the end that moves is not what one moves towards.
-        let towards = (other.at - own.at).dot(&way) > 0.0;
-        towards && there.footprints_overlap(&other.solid) && !here.footprints_overlap(&other.solid)
+        let comes = |by: f64| {
+            let overlaps = |solid: &Obb| grown(*solid, by).footprints_overlap(&other.solid);
+            !overlaps(&own.solid) && moved.iter().any(overlaps)
+        };
+        // Who goes straight on comes no nearer to what is beside or behind.
+        let towards = steer != 0.0 || (other.at - own.at).dot(&own.ahead) * ahead > 0.0;
+        towards && (comes(beside) || comes(0.0))
     })
+}
+
+/// The solid of a vehicle that has rolled so far, m, with its front wheels at an angle, radians: the rear axle goes round a circle.
+fn rolled(own: &Own<'_>, distance: f64, steer: f64) -> Obb {
+    let wheelbase = Driver::of_length(own.half_length * 2.0).wheelbase;
+    let turn = distance * tan(steer) / wheelbase;
+    let left = Vector2::new(-own.ahead.y, own.ahead.x);
+    // The chord of the rear axle's way, and where the middle is before it.
+    let half = turn * 0.5;
+    let chord = if half == 0.0 { distance } else { distance * sin(half) / half };
+    let along = |angle: f64| {
+        let (sin, cos) = sin_cos(angle);
+        own.ahead * cos + left * sin
+    };
+    let shift = along(half) * chord + (along(turn) - own.ahead) * (wheelbase * 0.5);
+    let mut solid = own.solid;
+    solid.pose.translation.vector += Vector3::new(shift.x, shift.y, 0.0);
+    solid.pose.rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn) * solid.pose.rotation;
+    solid
 }

@@ -19,6 +19,10 @@ pub(super) const LEAST: f64 = 16.0;
 const BEHIND: f64 = 60.0;
 /// Who is farther beside the middle of a lane is not in it, m.
 const IN_LANE: f64 = 2.0;
+/// Nearer to the middle of the lane one is seen there, and is let in, m.
+const NEARLY_IN: f64 = 1.5;
+/// Who has stood beside one's rear for so long, while one waited, lets one go first, s.
+const LETS_GO: f64 = 4.0;
 /// Least room before and behind, m, and time to whoever is before or behind one, s.
 const ROOM: f64 = 2.0;
 const AHEAD: f64 = 0.5;
@@ -63,6 +67,7 @@ impl Driving {
     ) -> Outlook {
         let station = self.station;
         self.changes.retain(|change| change.end > station);
+        self.look_again(network, own);
         let Some(change) = self.changes.first_mut().filter(|change| !change.is_begun) else {
             return Outlook::Free;
         };
@@ -71,7 +76,7 @@ impl Driving {
         if station + lead < change.begin {
             return Outlook::Free;
         }
-        if has_gap(network, own, around, change.to) {
+        if has_gap(network, own, around, change) {
             change.is_begun = true;
             return Outlook::Free;
         }
@@ -85,6 +90,19 @@ impl Driving {
         Outlook::Waits(stopping(change.latest - 5.0 - station, BRAKING))
     }
 
+    /// Who stands before it is in the other lane looks into the mirror once more.
+    fn look_again(&mut self, network: &RoadNetwork, own: &Own<'_>) {
+        if let Some(change) = self.changes.first_mut().filter(|_| own.speed.abs() < STANDING) {
+            let near = polyline::closest(&lane(network, change.to).path, &own.at);
+            change.is_begun &= near.is_some_and(|near| near.distance < NEARLY_IN);
+        }
+    }
+
+    /// Whether one comes from beside the lane, and is not in it yet.
+    pub(super) fn pulls_out(&self) -> bool {
+        self.changes.first().is_some_and(|change| change.from == change.to)
+    }
+
     /// How long one has stood for the change at hand, s.
     pub(super) fn waited_beside(&self) -> f64 {
         self.changes.first().map_or(0.0, |change| change.waited)
@@ -92,8 +110,8 @@ impl Driving {
 }
 
 /// Whether a lane has room beside one, and nobody there would have to brake hard, nor oneself.
-pub(super) fn has_gap(network: &RoadNetwork, own: &Own<'_>, around: &[Seen], to: LaneId) -> bool {
-    let path = &lane(network, to).path;
+fn has_gap(network: &RoadNetwork, own: &Own<'_>, around: &[Seen], change: &Change) -> bool {
+    let path = &lane(network, change.to).path;
     let Some((first, heading)) = path.first().map(|first| (*first, polyline::at(path, 0.0).1)) else {
         return false;
     };
@@ -113,6 +131,9 @@ pub(super) fn has_gap(network: &RoadNetwork, own: &Own<'_>, around: &[Seen], to:
         };
         let Some(at) = in_lane else { return true };
         let (its_rear, its_front, speed) = (at - other.half_length, at + other.half_length, other.speed());
+        if other.stands() && its_front < front && change.waited > LETS_GO {
+            return true;
+        }
         if its_rear > front {
             let excess = (v * v - speed * speed).max(0.0) / (2.0 * EASILY);
             its_rear - front > ROOM + AHEAD * v + excess

@@ -15,6 +15,7 @@ use simworld_core::scene::Scene;
 
 use super::Driving;
 use super::around::{STANDING, Seen};
+use super::bend;
 use super::people::{self, Strip};
 use super::watch::{BRAKING, GAP, LATERAL, Own, stopping};
 use crate::lanes::lane;
@@ -133,9 +134,18 @@ impl Junction {
             }
         };
         let others = turn.conflicts.iter().filter(|id| network.connections[id.index()].from != turn.from);
+        let swung_into = bend::swung_into(network, turn, own).into_iter().map(|(id, near)| {
+            let other = &network.connections[id.index()];
+            let theirs = WayTrace::new(other);
+            let (mine, theirs) =
+                (trace.zone(&theirs, near, Ends::Apart), theirs.zone(&trace, near, Ends::Apart));
+            let pace = round_bend(other, CAREFUL);
+            // One waits for whoever would come meanwhile, and asks for no more.
+            Meeting { way: id, critical: Some(START), ends: Ends::Apart, own: mine, other: theirs, pace }
+        });
         let limit = lane(network, turn.from).speed_limit.min(lane(network, turn.to).speed_limit);
         Self {
-            meetings: others.map(meet).collect(),
+            meetings: others.map(meet).chain(swung_into).collect(),
             strips: people::strips(network, turn),
             length: turn.length,
             speed: round_bend(turn, LATERAL).min(limit),

@@ -8,13 +8,14 @@ use simworld_core::id::{EntityId, LaneId};
 use simworld_core::net::{LaneKind, RoadNetwork, polyline};
 use simworld_core::scene::{EntityKind, Scene};
 
+use super::plan::longer_than_a_car;
 use crate::lanes::{OnLane, lane};
 
 /// Room between the vehicle and the kerb, m.
 const TO_KERB: f64 = 0.3;
 /// Room before and behind a parked vehicle, m: enough to pull out.
 const GAP: f64 = 2.0;
-/// Room behind it through which one pulls in forwards, m: nearer than this the path in is so far to the right that one would not
+/// Room behind it through which a car pulls in forwards, m: nearer than this the path in is so far to the right that one would not
 /// come past who is parked there.
 const APPROACH: f64 = 11.0;
 /// How far from where one wants to be one looks for a place, m.
@@ -42,7 +43,8 @@ impl Berth {
     ) -> bool {
         let (middle, heading) = pose(network, self.on.lane, self.on.station, self.aside);
         let (ahead, reach) = (direction(heading), size.0 * 0.5 + GAP);
-        let behind = size.0 * 0.5 + if self.aside > ASIDE { APPROACH } else { GAP };
+        let approach = APPROACH * longer_than_a_car(size.0);
+        let behind = size.0 * 0.5 + if self.aside > ASIDE { approach } else { GAP };
         let mut free = true;
         let _ = scene.visit(&Aabb::column_around(middle, reach.max(behind)), &mut |other| {
             if who.contains(&other.id)

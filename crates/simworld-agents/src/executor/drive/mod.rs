@@ -10,6 +10,7 @@
 //! [`World::actuate`](simworld_core::scene::World::actuate)).
 
 mod around;
+mod bend;
 mod change;
 mod junction;
 mod kerb;
@@ -196,6 +197,7 @@ impl RuleExecutor {
         }
         let obstacle = allowed.obstacle;
         let patience = match obstacle {
+            Some(other) if way.dodged(own, &other).is_some() => pass::DODGES,
             Some(other) if other.is_mobile && way.is_queue(&other, around) => QUEUE,
             Some(other) if other.is_mobile => STANDS,
             _ => self.config.patience,
@@ -242,7 +244,7 @@ impl Driving {
     fn back(&mut self, own: &Own<'_>, around: &[Seen], dt: f64, out: &mut Vec<Action>) {
         const BACKWARDS: f64 = 0.3;
         self.backing -= (-own.speed * dt).max(0.01);
-        if self.backing <= 0.0 || around::would_touch(own, around, -0.8, 0.2) {
+        if self.backing <= 0.0 || around::would_touch(own, around, (-0.8, 0.0), 0.2) {
             self.backing = 0.0;
             self.station = (self.station - 6.0).max(0.0);
             self.locate(own.at);

@@ -18,6 +18,13 @@ const BESIDE: f64 = 0.7;
 const MOST_ASIDE: f64 = 4.5;
 /// Length over which one goes out to the left and back again, m.
 const RAMP: f64 = 8.0;
+/// Who needs no more than this aside keeps to its lane, m, and who pulls out and needs no more than this to the left comes into it; the
+/// room to the side then, m, the length over which one goes there and back, m, and how long one looks at it first, s.
+const DODGE: f64 = 1.2;
+const PULLS_OUT: f64 = 2.5;
+const DODGE_BESIDE: f64 = 0.5;
+const DODGE_RAMP: f64 = 5.0;
+pub(super) const DODGES: f64 = 1.5;
 /// The speed at which one passes, m/s, and the time that is left when one is back, s.
 const PASSES_AT: f64 = 4.0;
 const SPARE: f64 = 2.0;
@@ -32,6 +39,16 @@ const PATIENCE: u32 = 4;
 const AT_LIGHT: f64 = 80.0;
 
 impl Driving {
+    /// How far aside one would go past what stands at a side of one's lane, as who is parked does, m to the left, negative to the
+    /// right; `None` where that is no place in one's lane, nor, while one pulls out, towards it.
+    pub(super) fn dodged(&self, own: &Own<'_>, obstacle: &Obstacle) -> Option<f64> {
+        let room = own.half_width + DODGE_BESIDE;
+        let (left, right) = ((obstacle.left + room).max(0.0), (obstacle.right - room).min(0.0));
+        let aside = if left <= -right { left } else { right };
+        let farthest = if self.pulls_out() { PULLS_OUT } else { DODGE };
+        Some(aside).filter(|_| obstacle.stands && (-DODGE..=farthest).contains(&aside))
+    }
+
     /// Whether what stands ahead waits for a light.
     pub(super) fn waits_at_light(&self, scene: &dyn Scene, obstacle: &Obstacle) -> bool {
         let Some(network) = scene.roads() else { return false };
@@ -64,21 +81,25 @@ impl Driving {
         around: &[Seen],
         obstacle: &Obstacle,
     ) {
-        let queue = self.is_queue(obstacle, around);
+        let dodged = self.dodged(own, obstacle);
+        let dodges = dodged.is_some();
+        let queue = !dodges && self.is_queue(obstacle, around);
         if !obstacle.stands || (queue && !self.tries.is_multiple_of(PATIENCE)) {
             return;
         }
-        let aside = obstacle.left + own.half_width + BESIDE;
+        let ramp = if dodges { DODGE_RAMP } else { RAMP };
+        let aside = dodged.unwrap_or(obstacle.left + own.half_width + BESIDE);
         let room = obstacle.begin - own.half_length - self.station;
-        let (begin, end) = (obstacle.begin - own.half_length - RAMP, obstacle.end + own.half_length + RAMP);
+        let (begin, end) = (obstacle.begin - own.half_length - ramp, obstacle.end + own.half_length + ramp);
         // Beyond a line there may be a junction.
-        let is_street = self.lines.iter().all(|line| line.station > end + 5.0 || line.station < self.station);
+        let is_street =
+            dodges || self.lines.iter().all(|line| line.station > end + 5.0 || line.station < self.station);
         let is_passable = is_street && !queue && aside <= MOST_ASIDE;
         if is_passable && self.is_clear(own, around, begin, end, aside) {
-            if room < RAMP * 0.75 && !would_touch(own, around, -2.0, 0.2) {
+            if room < ramp * 0.75 && !would_touch(own, around, (-2.0, 0.0), 0.2) {
                 self.backing = BACK;
             }
-            self.bend(begin.max(self.station - BACK), end, aside);
+            self.bend((begin.max(self.station - BACK), end), aside, ramp);
         } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
             self.drive_round(scene, network, vehicle, own, obstacle);
         }
@@ -114,7 +135,7 @@ impl Driving {
     }
 
     /// Moves the path to the left between two stations.
-    fn bend(&mut self, begin: f64, end: f64, aside: f64) {
+    fn bend(&mut self, (begin, end): (f64, f64), aside: f64, ramp: f64) {
         const STEP: f64 = 1.0;
         let (begin, length) = (begin.max(0.0), polyline::length(&self.path));
         let end = end.min(length);
@@ -123,7 +144,7 @@ impl Driving {
         for step in 1..=count {
             let along = (end - begin) * f64::from(step) / f64::from(count);
             let out =
-                smooth((along / RAMP).min(1.0)) * smooth(((end - begin - along) / RAMP).clamp(0.0, 1.0));
+                smooth((along / ramp).min(1.0)) * smooth(((end - begin - along) / ramp).clamp(0.0, 1.0));
             let (point, heading) = polyline::at(&self.path, begin + along);
             bent.push(point + left_of(heading) * (aside * out));
         }

@@ -13,8 +13,10 @@ use super::watch::Own;
 use super::{CannotArrive, Driving};
 use crate::lanes::{OnLane, lane, lane_at, leg_of, nearest_lane, nearest_lane_where};
 
-/// Length over which one pulls in to the kerb, m.
+/// Length over which a car of this length pulls in to the kerb, m; longer ones take as much more, so that their nose does not swing
+/// over the kerb.
 const PULL_IN: f64 = 16.0;
+const CAR: f64 = 4.5;
 /// One sees who stands at a place at the kerb from so near, m, looks each so many ticks, and turns away no more when one is
 /// almost in it, m.
 const IN_VIEW: f64 = 50.0;
@@ -193,7 +195,8 @@ fn by_road(
     wish: &Wish,
 ) -> Option<(Way, Berth)> {
     // What one has passed is not gone back to.
-    let first = if to.lane == from.lane { from.station + PULL_IN } else { 0.0 };
+    let pull = PULL_IN * longer_than_a_car(own.half_length * 2.0);
+    let first = if to.lane == from.lane { from.station + pull } else { 0.0 };
     let first = if to.station > from.station { first } else { 0.0 };
     let berth = kerb::berth(scene, network, own.ids, (to, first), own.size());
     // From beside the lane one joins it some way ahead.
@@ -224,18 +227,23 @@ fn by_road(
         };
         found.changes.insert(0, mirror);
     }
-    pull_in(&mut found.path, berth.aside);
+    pull_in(&mut found.path, berth.aside, pull);
     Some((found, berth))
 }
 
-/// Bends the end of a path to the right, by so much, m.
-fn pull_in(path: &mut Vec<Point2>, aside: f64) {
+/// How many times as long as a car a vehicle is, at least once.
+pub(super) fn longer_than_a_car(length: f64) -> f64 {
+    (length / CAR).max(1.0)
+}
+
+/// Bends the end of a path to the right, by so much, m, over such a length, m.
+fn pull_in(path: &mut Vec<Point2>, aside: f64, over: f64) {
     const POINTS: u32 = 16;
     if aside <= 0.0 {
         return;
     }
     let length = polyline::length(path);
-    let begin = (length - PULL_IN).max(0.0);
+    let begin = (length - over).max(0.0);
     let mut bent = polyline::slice(path, 0.0, begin);
     for step in 1..=POINTS {
         let share = f64::from(step) / f64::from(POINTS);

@@ -19,8 +19,8 @@ const LOCK: f64 = 0.6;
 const WALK: f64 = 1.5;
 /// Room kept to the kerbs and to others, m.
 const TO_KERB: f64 = 0.4;
-const TO_OTHERS: f64 = 0.8;
-const BESIDE: f64 = 0.3;
+const TO_OTHERS: f64 = 0.6;
+const BESIDE: f64 = 0.2;
 /// Within so much of the way back one drives on as ever, radians; the cosine of 25°.
 const TURNED: f64 = 0.906;
 /// One backs no farther than this at a time, m.
@@ -113,7 +113,8 @@ impl Driving {
         }
         turning.shift(network, own, around, dt);
         // Whoever comes close meanwhile stops, or passes, first.
-        let pauses = around.iter().any(|other| comes(own, other, NEAR));
+        let pauses = around.iter().any(|other| comes(own, other, NEAR))
+            || [1.0, -1.0].iter().all(|way| turning.is_barred(network, own, around, *way));
         let (speed, side) = match turning.gear {
             Gear::Forwards | Gear::Backwards if pauses => (0.0, turning.side),
             Gear::Waits => (0.0, 1.0),
@@ -164,7 +165,7 @@ impl Turning {
             let kerb = if now.lateral > 0.0 { road.left_kerb } else { road.right_kerb };
             outwards && now.lateral.abs() > kerb - TO_KERB
         });
-        at_kerb || would_touch(own, around, way * TO_OTHERS, BESIDE)
+        at_kerb || would_touch(own, around, (way * TO_OTHERS, LOCK * self.side * way), BESIDE)
     }
 }
 

@@ -83,7 +83,8 @@ pub(super) struct Obstacle {
     pub(super) id: EntityId,
     pub(super) begin: f64,
     pub(super) end: f64,
-    /// Its left edge beside the path, positive to the left, m.
+    /// Its right and its left edge beside the path, positive to the left, m.
+    pub(super) right: f64,
     pub(super) left: f64,
     pub(super) stands: bool,
     pub(super) is_mobile: bool,
@@ -128,7 +129,7 @@ impl Driving {
         let left = polyline::length(&self.path) - self.station;
         // One creeps up to the end, and stands there.
         let last = if left < STOPPED { 0.0 } else { stopping(left - STOPPED, BRAKING).max(0.4) };
-        let free = wish.unwrap_or(limit).min(limit).min(last).min(self.bends(own.speed));
+        let free = wish.unwrap_or(limit).min(limit).min(last).min(self.bends(own));
         if free < allowed.speed {
             (allowed.speed, allowed.waits) = (free, false);
         }
@@ -204,21 +205,23 @@ impl Driving {
         self.limits.last().map_or(OPEN_GROUND, |(_, limit)| *limit)
     }
 
-    /// By the bends ahead.
-    fn bends(&self, speed: f64) -> f64 {
+    /// By the bends ahead, and by the one that the rear is still in.
+    fn bends(&self, own: &Own<'_>) -> f64 {
         const STEP: f64 = 3.0;
-        let sight = (speed * speed / (2.0 * BRAKING) + 10.0).min(SIGHT.1);
+        let sight = (own.speed * own.speed / (2.0 * BRAKING) + 10.0).min(SIGHT.1);
         let mut least = f64::INFINITY;
-        let window = polyline::slice(&self.path, self.station, self.station + sight + 2.0 * STEP);
+        let first = (self.station - own.half_length).max(0.0);
+        let behind = self.station - first;
+        let window = polyline::slice(&self.path, first, self.station + sight + 2.0 * STEP);
         let mut along = 0.0;
-        while along < sight {
+        while along < behind + sight {
             let [a, b, c] =
                 [along, along + STEP, along + 2.0 * STEP].map(|station| polyline::at(&window, station).0);
             let turn = wrap_angle(bearing(c - b) - bearing(b - a)).abs();
             if (c - b).norm() > 0.5 && (b - a).norm() > 0.5 {
                 let curvature = turn / STEP;
                 let there = if curvature > 1e-3 { (LATERAL / curvature).sqrt() } else { f64::INFINITY };
-                least = least.min((there * there + 2.0 * BRAKING * along).sqrt());
+                least = least.min((there * there + 2.0 * BRAKING * (along - behind).max(0.0)).sqrt());
             }
             along += STEP;
         }
@@ -229,19 +232,29 @@ impl Driving {
     fn behind_others(&self, own: &Own<'_>, around: &[Seen]) -> Option<(f64, Obstacle)> {
         let sight = (own.speed * own.speed / (2.0 * BRAKING) + SIGHT.0).min(SIGHT.1);
         let path = polyline::slice(&self.path, self.station, self.station + sight + own.half_length);
+        // One's nose comes to stand beyond the end of the path, where a berth is free of things but not of who has just come.
+        let mut longer = path.clone();
+        if let [.., before, last] = path[..]
+            && let Some(way) = (last - before).try_normalize(1e-9)
+        {
+            longer.push(last + way * (own.half_length + BESIDE));
+        }
         let near = around
             .iter()
             .filter(|other| (other.at - own.at).norm() < sight + own.half_length + other.half_length);
-        near.filter_map(|other| self.slows(&path, own, other)).min_by(|a, b| a.0.total_cmp(&b.0))
+        let slowed = near
+            .filter_map(|other| self.slows(if other.kind.is_mobile() { &longer } else { &path }, own, other));
+        slowed.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The speed that leaves room and time behind a thing on the path, now or by the time that one foresees.
     fn slows(&self, path: &[Point2], own: &Own<'_>, other: &Seen) -> Option<(f64, Obstacle)> {
         let walks = other.walks();
-        let room = own.half_width + if walks { BESIDE * 2.0 } else { BESIDE };
+        // Who stands at the kerb is passed closer than who may step out.
+        let room = own.half_width + if walks && !other.stands() { BESIDE * 2.0 } else { BESIDE };
         // Vehicles that will cross the path are left to the gaps at lines; people are not.
         let times = if walks && !other.stands() { &FORESIGHT[..] } else { &FORESIGHT[..1] };
-        let (begin, end, left) =
+        let (begin, end, (right, left)) =
             times.iter().find_map(|time| footprint_on(path, other, other.velocity * *time, room))?;
         if begin < own.half_length * 0.5 && end < own.half_length {
             return None; // beside or behind
@@ -256,7 +269,7 @@ impl Driving {
         let speed = if gap < -1.0 { 0.0 } else { speed };
         let (begin, end) = (begin + self.station, end + self.station);
         let (stands, is_mobile) = (other.stands(), other.kind.is_mobile());
-        Some((speed, Obstacle { id: other.id, begin, end, left, stands, is_mobile }))
+        Some((speed, Obstacle { id: other.id, begin, end, right, left, stands, is_mobile }))
     }
 }
 
@@ -269,13 +282,13 @@ fn bearing(way: Vector2) -> f64 {
     atan2(way.y, way.x)
 }
 
-/// From where to where a thing reaches along the path, and its left edge, if it comes within `room` of it.
+/// From where to where a thing reaches along the path, and its right and left edge, if it comes within `room` of it.
 pub(super) fn footprint_on(
     path: &[Point2],
     other: &Seen,
     moved: Vector2,
     room: f64,
-) -> Option<(f64, f64, f64)> {
+) -> Option<(f64, f64, (f64, f64))> {
     let (mut begin, mut end, mut right, mut left) =
         (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
     let last = polyline::length(path);
@@ -291,5 +304,5 @@ pub(super) fn footprint_on(
         left = left.max(lateral);
     }
     let on_path = right <= room && left >= -room && end > 0.0 && begin < last;
-    on_path.then_some((begin, end, left))
+    on_path.then_some((begin, end, (right, left)))
 }
