@@ -8,10 +8,12 @@ const WITH_WATER: u32 = 2u;
 const WITH_SNOW: u32 = 4u;
 // Of rays alone, which meet models and everything else in one pipeline.
 const WITH_MODELS: u32 = 8u;
+// Of rays alone: some of these are cut out.
+const WITH_CUTS: u32 = 16u;
 
 fn surface_of(hit: Hit) -> Surface {
     let f = hit.finish;
-    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow, hit.normal, f.roughness, f.metallic);
+    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow.rgb, hit.normal, f.roughness, f.metallic);
     switch hit.pattern {
         case 1u: { return facade(hit, base); }
         case 2u: { return road(hit, base); }
@@ -156,7 +158,7 @@ fn shade(hit: Hit) -> vec3f {
     let ambient = irradiance(s.normal) * nook;
     // Streets and leaves are too rough to mirror anything, unless they are wet.
     let dull = hit.pattern >= 2u && hit.pattern <= 6u && (FEATURES & WITH_WATER) == 0u;
-    color += s.albedo * (1.0 - s.metallic) * ambient + mirrored(s, -ray, ambient, dull);
+    color += (s.albedo * (1.0 - s.metallic) * ambient + mirrored(s, -ray, ambient, dull)) * hit.glow.w;
     if ((FEATURES & WITH_LAMPS) != 0u) {
         color += lamp_light(s, hit.relative, -ray);
     }

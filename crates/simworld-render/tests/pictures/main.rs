@@ -8,6 +8,7 @@ mod batches_are_their_views;
 mod bodies_are_drawn_where_they_are;
 mod boxes_hold_what_is_seen;
 mod common;
+mod cutouts;
 mod depth_is_exact;
 mod files_hold_the_frame;
 mod flow_is_the_motion_that_is_known;
