@@ -194,10 +194,13 @@ fn entries_of(part: &ModelPart, number: usize, model: &Model, laid: &Laid, side:
     let [red, green, blue] = finish.emission;
     let cutoff = if let Transparency::Cutout { cutoff } = part.transparency { cutoff } else { WHOLE };
     let mut entries = [[0.0; 4]; ENTRIES];
-    entries[0] = [finish.roughness, finish.metallic, 0.0, cutoff];
     entries[1] = [red, green, blue, 0.0];
     let textures: [Option<ModelTexture>; PICTURES] =
         [part.texture, pictures.metal, pictures.emission, pictures.shade, pictures.bumps];
+    // Which of them there are, beside that of colour.
+    let kinds: u32 =
+        (0..).zip(&textures[1..]).map(|(bit, texture)| u32::from(texture.is_some()) << bit).sum();
+    entries[0] = [finish.roughness, finish.metallic, kinds as f32, cutoff];
     for (entry, texture) in entries[2..].iter_mut().zip(textures) {
         *entry = picture_entry(texture, model, laid, side);
     }

@@ -96,16 +96,18 @@ fn hit_of(met: Met, number: u32, triangle: u32, direction: vec3f) -> Hit {
     let steps = steps_of(ray, select(depth, 1.0, parallel), met.flat_normal);
     var finish: Finish;
     var glow = vec4f(0.0, 0.0, 0.0, 1.0);
+    var bumped = met.normal;
     if ((FEATURES & WITH_MODELS) != 0u && is_model(met.material)) {
-        let spot = spot_of(met, number, triangle, steps);
-        finish = spot.finish;
-        glow = spot.glow;
+        let touched = touched(met, number, triangle, steps);
+        finish = touched.spot.finish;
+        glow = touched.spot.glow;
+        bumped = touched.normal;
     } else {
         finish = finish_of(met.material, i.color, i.second, i.scale.w);
     }
     let extra = vec2f(i.color.w, i.second.w);
     let footprint = footprint_of(steps, i.rotation);
-    return Hit(met.relative, met.normal, met.body, met.normals[0], finish, i.scale, extra, f32(met.material != 0u), met.pattern, footprint, glow);
+    return Hit(met.relative, met.normal, met.body, met.normals[0], finish, i.scale, extra, f32(met.material != 0u), met.pattern, footprint, glow, bumped);
 }
 
 fn encoded(color: vec3f) -> u32 {

@@ -35,8 +35,13 @@ fn alpha_on(chart: Chart, share: vec2f) -> f32 {
     return dot(chart.alpha, vec3f(1.0 - share.x - share.y, share));
 }
 
-// The part where a ray met its triangle.
-fn spot_of(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Spot {
+// The part where a ray met its triangle, and its normal there.
+struct Touched {
+    spot: Spot,
+    normal: vec3f,
+}
+
+fn touched(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Touched {
     let i = instances[number];
     let one = triangle_at(triangle, i.scale.xyz, i.place.w);
     let chart = chart_of(triangle, number);
@@ -44,7 +49,9 @@ fn spot_of(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Spot {
     let across = chart.sides * shares_of(one, rotate(inverse, steps[0]));
     let down = chart.sides * shares_of(one, rotate(inverse, steps[1]));
     let place = chart.corner + chart.sides * within_triangle(shares_of(one, met.body - one.a));
-    return model_spot(chart.coat, model_tint(met.material, i.color.rgb), place, across, down);
+    let spot = model_spot(chart.coat, model_tint(met.material, i.color.rgb), place, across, down);
+    let ways = mat2x3f(rotate(i.rotation, one.ab), rotate(i.rotation, one.ac));
+    return Touched(spot, tilted(met.normal, spot.bump, ways, chart.sides));
 }
 
 // Whether a view ray goes through a hole where it meets a triangle; the ray is in the body frame. A ray of a table is no pixel, and sees the finest level.

@@ -46,12 +46,14 @@ fn model_color(in: ModelVaryings) -> vec4f {
     let across = dpdx(in.place);
     let down = dpdy(in.place);
     let footprint = fwidth(in.body);
+    let ways = mat2x3f(dpdx(in.relative), dpdy(in.relative));
     if (CUT && falls_away(in.coat, in.alpha, in.place, across, down)) {
         discard;
     }
     let spot = model_spot(in.coat, in.tint, in.place, across, down);
     let normal = normalize(in.normal);
-    let hit = Hit(in.relative, normal, in.body, in.body_normal, spot.finish, in.size, in.extra, 1.0, PATTERN, footprint, spot.glow);
+    let bumped = tilted(normal, spot.bump, ways, mat2x2f(across, down));
+    let hit = Hit(in.relative, normal, in.body, in.body_normal, spot.finish, in.size, in.extra, 1.0, PATTERN, footprint, spot.glow, bumped);
     return vec4f(shade(hit), 1.0);
 }
 

@@ -21,6 +21,8 @@ struct Hit {
     footprint: vec3f,
     // Light of its own, beside that of its finish; w: the share of the sky's light that comes there.
     glow: vec4f,
+    // The normal as bumps tilt it.
+    bumped: vec3f,
 }
 
 // How far a point on a plane goes from a pixel to the next, across and down, world axes, for backends without derivatives: as the view ray moves by

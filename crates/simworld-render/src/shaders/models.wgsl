@@ -11,15 +11,57 @@ struct Spot {
     finish: Finish,
     // Its own light, which is seen by day as little as that of a lamp's glass; w: the share of the sky's light that comes there.
     glow: vec4f,
+    // Its normal in the frame of the pictures: to the right, to the top, and out of the surface; zero without a picture of it.
+    bump: vec3f,
 }
+
+// Pictures of a part beside that of its colour, by the bits that say which there are; as many entries behind METAL_PICTURE.
+const METAL: u32 = 0u;
+const EMISSION: u32 = 1u;
+const SHADE: u32 = 2u;
+const BUMPS: u32 = 3u;
 
 fn model_spot(coat: u32, tint: vec3f, place: vec2f, across: vec2f, down: vec2f) -> Spot {
     let first = coat_entry(coat);
     let light = coat_entry(coat + 1u);
-    var albedo = tint;
+    var spot = Spot(Finish(tint, 0.0, 0.0, first.x, first.y), vec4f(light.rgb, 1.0), vec3f(0.0));
     let picture = picture_at(coat + COLOR_PICTURE);
     if (picture.row >= 0.0) {
-        albedo *= pictured(true, picture, place, level_of_picture(picture, across, down)).rgb;
+        spot.finish.albedo *= pictured(true, picture, place, level_of_picture(picture, across, down)).rgb;
     }
-    return Spot(Finish(albedo, 0.0, 0.0, first.x, first.y), vec4f(light.rgb * (0.15 + 1.6 * globals.sun_direction.w), 1.0));
+    // A loop, which costs nothing on a CPU where it never runs: most parts have no such pictures.
+    for (var left = u32(first.z); left != 0u; left &= left - 1u) {
+        let kind = firstTrailingBit(left);
+        let more = picture_at(coat + METAL_PICTURE + kind);
+        let seen = pictured(kind == EMISSION, more, place, level_of_picture(more, across, down)).rgb;
+        let scale = coat_entry(coat + SCALES).xy;
+        switch kind {
+            case METAL: {
+                spot.finish.roughness *= seen.g;
+                spot.finish.metallic *= seen.b;
+            }
+            case EMISSION: { spot.glow = vec4f(spot.glow.rgb * seen, spot.glow.w); }
+            case SHADE: { spot.glow.w = 1.0 + scale.x * (seen.r - 1.0); }
+            default: { spot.bump = (2.0 * seen - 1.0) * vec3f(scale.y, scale.y, 1.0); }
+        }
+    }
+    spot.glow = vec4f(spot.glow.rgb * (0.15 + 1.6 * globals.sun_direction.w), spot.glow.w);
+    return spot;
+}
+
+// A normal as bumps tilt it, of a surface on which two ways of so many metres are such ways on its pictures, downwards as these count. The frame is
+// that of the surface there, and the first axis of it is to the right of the pictures, as glTF has it.
+fn tilted(normal: vec3f, bump: vec3f, ways: mat2x3f, steps: mat2x2f) -> vec3f {
+    let turn = sign(determinant(steps));
+    let right = (ways[0] * steps[1].y - ways[1] * steps[0].y) * turn;
+    let below = (ways[1] * steps[0].x - ways[0] * steps[1].x) * turn;
+    let along = right - normal * dot(normal, right);
+    let square = dot(along, along);
+    let tangent = along * inverseSqrt(max(square, 1e-36));
+    let aside = cross(normal, tangent);
+    let up = aside * select(-1.0, 1.0, dot(aside, below) < 0.0);
+    let leaning = tangent * bump.x + up * bump.y + normal * bump.z;
+    let length = length(leaning);
+    // Where pictures lie on a line, or have no direction at all, nothing is tilted.
+    return select(normal, leaning / max(length, 1e-6), square > 1e-36 && length > 1e-3);
 }

@@ -9,9 +9,8 @@ const ENTRIES: u32 = 12u;
 // Of these, where its pictures stand, and how much has to be there at each level of the first of them.
 const COLOR_PICTURE: u32 = 2u;
 const METAL_PICTURE: u32 = 3u;
-const EMISSION_PICTURE: u32 = 4u;
-const SHADE_PICTURE: u32 = 5u;
-const BUMP_PICTURE: u32 = 6u;
+// How far shade counts, and how steep bumps are.
+const SCALES: u32 = 7u;
 const CUTOFFS: u32 = 8u;
 
 fn coat_entry(at: u32) -> vec4f {

@@ -13,7 +13,7 @@ const WITH_CUTS: u32 = 16u;
 
 fn surface_of(hit: Hit) -> Surface {
     let f = hit.finish;
-    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow.rgb, hit.normal, f.roughness, f.metallic);
+    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow.rgb, hit.bumped, f.roughness, f.metallic);
     switch hit.pattern {
         case 1u: { return facade(hit, base); }
         case 2u: { return road(hit, base); }
@@ -150,7 +150,8 @@ fn shade(hit: Hit) -> vec3f {
     if (leaves) {
         let cosine = saturate(facing * 0.7 + 0.3);
         color += s.albedo * globals.sun.rgb * (cosine * sunlit(hit.relative, sun));
-    } else if (facing > 0.0) {
+    } else if (facing > 0.0 && (hit.pattern != 8u || dot(hit.normal, sun) > 0.0)) {
+        // Bumps turn nothing to a sun that is behind the surface.
         color += reflected(s, -ray, sun) * globals.sun.rgb * sunlit(hit.relative, hit.normal);
     }
     // Nooks near the ground see less of the sky.

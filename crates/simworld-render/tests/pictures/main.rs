@@ -16,6 +16,7 @@ mod golden;
 mod ids_and_classes_name_what_is_there;
 mod levels_change_little;
 mod light_and_weather;
+mod light_in_pictures;
 mod look;
 mod maps_have_one_scale;
 mod memory_runs_out;
