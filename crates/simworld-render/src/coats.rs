@@ -6,14 +6,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use simworld_core::asset::{
-    LONGEST_IMAGE, Model, ModelImage, ModelPart, ModelTexture, ModelVertex, Transparency, Wrap,
-};
+use simworld_core::asset::{LONGEST_IMAGE, Model, ModelImage, ModelPart, ModelTexture, ModelVertex, Wrap};
 
 use crate::RenderError;
 use crate::coverage::{Cutoffs, Level, MOST_LEVELS, cutoffs, cuttable};
 use crate::gpu::{Gpu, LAYER, ROW, Texels};
 use crate::mesh::ModelId;
+use crate::models::cutoff_of;
 use crate::sources::{Source, Sources};
 use crate::threads;
 
@@ -177,22 +176,18 @@ impl Coats {
             let none = Laid::default();
             let laid = self.rows.get(id).map_or(&none, |(_, laid)| laid);
             for (number, part) in model.parts.iter().enumerate() {
-                self.are_cut |= is_cut(part);
+                self.are_cut |= cutoff_of(part).is_some();
                 self.table.extend(entries_of(part, number, model, laid, self.side));
             }
         }
     }
 }
 
-fn is_cut(part: &ModelPart) -> bool {
-    matches!(part.transparency, Transparency::Cutout { .. })
-}
-
 /// What the table says of a part, which is that one of its model.
 fn entries_of(part: &ModelPart, number: usize, model: &Model, laid: &Laid, side: u32) -> [[f32; 4]; ENTRIES] {
     let (finish, pictures) = (&part.finish, &part.pictures);
     let [red, green, blue] = finish.emission;
-    let cutoff = if let Transparency::Cutout { cutoff } = part.transparency { cutoff } else { WHOLE };
+    let cutoff = cutoff_of(part);
     let mut entries = [[0.0; 4]; ENTRIES];
     entries[1] = [red, green, blue, 0.0];
     let textures: [Option<ModelTexture>; PICTURES] =
@@ -200,16 +195,16 @@ fn entries_of(part: &ModelPart, number: usize, model: &Model, laid: &Laid, side:
     // Which of them there are, beside that of colour.
     let kinds: u32 =
         (0..).zip(&textures[1..]).map(|(bit, texture)| u32::from(texture.is_some()) << bit).sum();
-    entries[0] = [finish.roughness, finish.metallic, kinds as f32, cutoff];
+    entries[0] = [finish.roughness, finish.metallic, kinds as f32, cutoff.unwrap_or(WHOLE)];
     for (entry, texture) in entries[2..].iter_mut().zip(textures) {
         *entry = picture_entry(texture, model, laid, side);
     }
-    let cutoffs = laid.cutoffs.get(number).filter(|_| is_cut(part));
+    let cutoffs = laid.cutoffs.get(number).filter(|_| cutoff.is_some());
     if let Some(Cutoffs { levels, .. }) = cutoffs {
         entries[2] = with_levels(entries[2], *levels);
     }
     entries[7] = [pictures.shade_strength, pictures.bump_scale, 0.0, 0.0];
-    let values = cutoffs.map_or([cutoff; MOST_LEVELS], |cutoffs| cutoffs.values);
+    let values = cutoffs.map_or([cutoff.unwrap_or(WHOLE); MOST_LEVELS], |cutoffs| cutoffs.values);
     entries[8..].copy_from_slice(values.as_chunks::<4>().0);
     entries
 }
@@ -239,7 +234,7 @@ fn cutoffs_of(
     side: u32,
 ) -> Cutoffs {
     let all = |value| Cutoffs { values: [value; MOST_LEVELS], levels: 1 };
-    let Transparency::Cutout { cutoff } = part.transparency else { return all(WHOLE) };
+    let Some(cutoff) = cutoff_of(part) else { return all(WHOLE) };
     let found = part.texture.and_then(|texture| {
         let index = texture.image as usize;
         Some((texture.wrap, model.images.get(index)?, chains.get(index)?))
@@ -326,6 +321,8 @@ fn texels_of(image: &ModelImage, side: u32) -> Vec<[u8; 4]> {
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::asset::Transparency;
+
     use super::*;
 
     fn image(width: u32, height: u32) -> ModelImage {

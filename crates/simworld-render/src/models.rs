@@ -169,9 +169,17 @@ pub(crate) struct ModelMesh {
     pub cut_from: usize,
 }
 
-/// Whether there are holes in a part.
+/// How much has to be there of a part so that it is seen; none of what is opaque. Of what is to be blended it is a half.
+pub(crate) fn cutoff_of(part: &ModelPart) -> Option<f32> {
+    match part.transparency {
+        Transparency::Opaque => None,
+        Transparency::Cutout { cutoff } => Some(cutoff),
+        Transparency::Blend => Some(0.5),
+    }
+}
+
 fn is_cut(part: &ModelPart) -> bool {
-    matches!(part.transparency, Transparency::Cutout { .. })
+    cutoff_of(part).is_some()
 }
 
 impl ModelMesh {

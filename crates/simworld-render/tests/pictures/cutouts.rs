@@ -271,6 +271,23 @@ fn vertices_and_factors_have_alpha_too() {
     }
 }
 
+/// Of what is to be blended, what is there by a half or more is seen as a whole, and nothing of the rest.
+#[test]
+fn what_is_blended_is_there_from_a_half_on() {
+    let Some(renderers) = backends() else { return };
+    // From nothing on the left to all on the right.
+    let mut image = picture(64, |_, _| true);
+    image.alpha = (0..64 * 64).map(|k| (k % 64 * 4) as u8).collect();
+    let world = |transparency| scene(&card(image.clone(), WHOLE, |part| part.transparency = transparency)).0;
+    let blended = world(Transparency::Blend);
+    let cut = world(Transparency::Cutout { cutoff: 0.5 });
+    for mut renderer in renderers {
+        let [blended, cut] = [&blended, &cut].map(|world| all(&mut renderer, world, &camera()));
+        assert!(blended.ids == cut.ids && blended.depth == cut.depth && blended.normals == cut.normals);
+        assert!(blended.rgb == cut.rgb);
+    }
+}
+
 #[test]
 fn smoothed_pictures_have_the_holes_as_well() {
     let smooth = RenderConfig {
