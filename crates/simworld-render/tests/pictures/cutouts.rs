@@ -63,7 +63,7 @@ fn scene(asset: &Asset) -> (World, [EntityId; 3]) {
 fn all(renderer: &mut Renderer, world: &World, camera: &Camera) -> Views {
     let options = ViewOptions { channels: Channels::all(), ..ViewOptions::default() };
     let mut views = Views::new();
-    renderer.render_views(world, &[camera.clone().into()], &options, &mut views).expect("it is drawn");
+    renderer.render_views(world, &[(*camera).into()], &options, &mut views).expect("it is drawn");
     views
 }
 

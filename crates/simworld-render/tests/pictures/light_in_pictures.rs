@@ -142,13 +142,11 @@ fn shade_takes_the_light_of_the_sky_alone() {
                 }
             }
         }
-        // What is taken in the sun is as much as what is taken without, as far as a display shows the light as it is.
-        let taken = |light: &mut dyn FnMut(&Asset, f64, (u32, u32)) -> [f64; 3], azimuth| {
-            light(&plain(finish, 0.2), azimuth, PIXELS[0][0])[1]
-                - light(&shaded(1.0), azimuth, PIXELS[0][0])[1]
-        };
-        let (sunny, shady) = (taken(&mut light, 1.4 * std::f64::consts::PI), taken(&mut light, behind));
-        assert!(sunny > 0.0 && shady > 0.0, "{sunny} {shady}");
+        // Most of what a surface in the sun has is the sun's, of which nothing is taken.
+        let sunny = 1.4 * std::f64::consts::PI;
+        let [got, full] =
+            [&shaded(1.0), &plain(finish, 0.2)].map(|asset| light(asset, sunny, PIXELS[0][0])[1]);
+        assert!((0.5..0.98).contains(&(got / full)), "{got} of {full}");
     }
 }
 
