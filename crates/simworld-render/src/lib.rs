@@ -6,6 +6,7 @@ mod batch;
 pub mod classes;
 mod coats;
 mod config;
+mod coverage;
 mod draw_list;
 mod error;
 mod export;

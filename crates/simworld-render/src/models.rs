@@ -1,9 +1,10 @@
 //! Models of assets on the device: uploaded once, drawn as often as entities are made from them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::sync::Arc;
 
-use simworld_core::asset::{Model, ModelVertex, POSE_RATE, Paint};
+use simworld_core::asset::{Model, ModelPart, ModelVertex, POSE_RATE, Paint, Transparency};
 use simworld_core::geometry::Vector3;
 use simworld_core::id::AssetId;
 use simworld_core::scene::EntityRef;
@@ -36,7 +37,9 @@ struct Held {
     /// At rest.
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
+    /// Of the corners, those of what is cut out come last.
     count: u32,
+    cut_from: u32,
     /// Its vertices in other poses.
     poses: Poses<wgpu::Buffer>,
 }
@@ -95,13 +98,28 @@ impl Models {
         Ok(is_new)
     }
 
-    /// Draws a batch of a model.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, id: ModelId, instances: std::ops::Range<u32>) {
+    /// Whether anything of them is cut out.
+    pub(crate) fn are_cut(&self) -> bool {
+        self.held.values().any(|held| held.cut_from < held.count)
+    }
+
+    /// Draws of a batch of a model what is whole, or what is cut out.
+    pub(crate) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        id: ModelId,
+        instances: Range<u32>,
+        cut: bool,
+    ) {
         let Some(held) = self.held.get(&id.source) else { return };
+        let corners = if cut { held.cut_from..held.count } else { 0..held.cut_from };
+        if corners.is_empty() {
+            return;
+        }
         let vertices = id.pose.and_then(|pose| held.poses.get(pose)).unwrap_or(&held.vertices);
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(held.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..held.count, 0, instances);
+        pass.draw_indexed(corners, 0, instances);
     }
 }
 
@@ -119,7 +137,7 @@ impl ModelId {
 impl Held {
     fn upload(gpu: &Gpu, modelled: &Modelled<'_>) -> Result<Self, RenderError> {
         let mesh = ModelMesh::of(modelled.size, &modelled.model, None);
-        let indices = mesh.indices.clone();
+        let (indices, cut_from) = (mesh.indices.clone(), mesh.cut_from as u32);
         let vertices = mesh.in_triangles();
         let largest = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
         let limit = gpu.device.limits().max_buffer_size;
@@ -132,6 +150,7 @@ impl Held {
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
             indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
             count: indices.len() as u32,
+            cut_from,
             poses: Poses::of_bytes(size_of_val(&vertices[..]) as u64),
         })
     }
@@ -142,10 +161,25 @@ pub(crate) struct ModelMesh {
     /// Points in shares of the collider's box, so that an entity of another size stretches the model; normals as they stand on the
     /// surface in that unit box.
     pub vertices: Vec<Vertex>,
-    /// By vertex, the place on the picture of its part, and which part that is. In triangles it stands where other meshes have
-    /// their offsets, whose unit is zero in instances of models.
-    pub spots: Vec<[f32; 3]>,
+    /// By vertex, the place on the pictures of its part, which part that is, and how much is there of it. In triangles these stand where other
+    /// meshes have their offsets, whose unit is zero in instances of models.
+    pub spots: Vec<[f32; 4]>,
     pub indices: Vec<u32>,
+    /// From this index on, corners are those of parts that are cut out.
+    pub cut_from: usize,
+}
+
+/// How much has to be there of a part so that it is seen; none of what is opaque. Of what is to be blended it is a half.
+pub(crate) fn cutoff_of(part: &ModelPart) -> Option<f32> {
+    match part.transparency {
+        Transparency::Opaque => None,
+        Transparency::Cutout { cutoff } => Some(cutoff),
+        Transparency::Blend => Some(0.5),
+    }
+}
+
+fn is_cut(part: &ModelPart) -> bool {
+    cutoff_of(part).is_some()
 }
 
 impl ModelMesh {
@@ -166,10 +200,15 @@ impl ModelMesh {
             vertices: Vec::with_capacity(model.vertices.len()),
             spots: Vec::with_capacity(model.vertices.len()),
             indices: Vec::with_capacity(model.triangles.len() * 3),
+            cut_from: 0,
         };
         // By vertex of the model, the part that had it last, and which it is there: parts that share one have one each.
         let mut homes = vec![NOBODY; model.vertices.len()];
-        for (number, (part, triangles)) in (0..).zip(model.runs()) {
+        let runs = || (0..).zip(model.runs());
+        let whole = runs().filter(|(_, (part, _))| !is_cut(part));
+        for (number, (part, triangles)) in whole.chain(runs().filter(|(_, (part, _))| is_cut(part))) {
+            let corners = if is_cut(part) { 0 } else { triangles.len() * 3 };
+            mesh.cut_from += corners;
             for corner in triangles.as_flattened() {
                 let home = &mut homes[*corner as usize];
                 if home.0 != number {
@@ -184,7 +223,9 @@ impl ModelMesh {
                         material: packed(vertex.color) | factor,
                     });
                     let [right, down] = vertex.place;
-                    mesh.spots.push([right, down, number as f32]);
+                    // In steps that triangles have too; rounded up, so that what is just enough stays enough.
+                    let alpha = if is_cut(part) { (vertex.alpha * 256.0).ceil() / 256.0 } else { 1.0 };
+                    mesh.spots.push([right, down, number as f32, alpha]);
                 }
                 mesh.indices.push(home.1);
             }
@@ -192,10 +233,10 @@ impl ModelMesh {
         mesh
     }
 
-    /// Its vertices with the places on pictures and the parts where other meshes have their offsets.
+    /// Its vertices with the places on pictures and the parts where other meshes have their offsets, as shaders/store.wgsl reads them.
     fn in_triangles(mut self) -> Vec<Vertex> {
-        for (vertex, spot) in self.vertices.iter_mut().zip(self.spots) {
-            vertex.offset = spot;
+        for (vertex, [right, down, part, alpha]) in self.vertices.iter_mut().zip(self.spots) {
+            vertex.offset = [right, down, part + (1.0 - alpha) * 0.5];
         }
         self.vertices
     }
@@ -221,7 +262,7 @@ mod tests {
             parts: vec![part(Paint::Own), part(Paint::Entity)],
             ..Model::default()
         };
-        let ModelMesh { vertices, spots, indices } = ModelMesh::of(Vector3::repeat(1.0), &model, None);
+        let ModelMesh { vertices, spots, indices, .. } = ModelMesh::of(Vector3::repeat(1.0), &model, None);
         assert_eq!(indices, [0, 1, 2, 3, 4, 5]);
         assert_eq!(spots.iter().map(|spot| spot[2]).collect::<Vec<_>>(), [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let of_entity: Vec<bool> =

@@ -87,9 +87,14 @@ impl Raster {
         Ok(())
     }
 
-    /// Makes ready what pictures of these features are drawn with.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
-        self.pipelines.prepare(gpu, features);
+    /// Makes ready what pictures of these features are drawn with, if there are to be pictures.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Option<Features>) {
+        if let Some(features) = features {
+            self.pipelines.prepare(gpu, features);
+        }
+        if self.models.are_cut() {
+            self.pipelines.prepare_cuts(gpu, features);
+        }
     }
 
     /// Records every view of a batch.
@@ -111,6 +116,8 @@ impl Raster {
                 self.draw_batches(&mut pass, &batches.visible, |pass, _| {
                     pass.set_pipeline(&self.pipelines.normals);
                 });
+                let cuts = self.pipelines.cuts().map(|cuts| &cuts.normals);
+                self.draw_cuts(&mut pass, &batches.visible, job.store, cuts);
                 drop(pass);
                 Targets::copy_one(encoder, &targets.id, &planes.normals, span);
             }
@@ -132,15 +139,15 @@ impl Raster {
         match self.shadows.plan(job.gpu, key, job.version, &list.casters) {
             Redraw::Nothing => {}
             Redraw::Whole => {
-                self.draw_layer(encoder, job.scenery, view, self.shadows.target(key, false), still, clear);
+                self.draw_layer(encoder, job, view, self.shadows.target(key, false), still, clear);
             }
             Redraw::Layers { stale } => {
                 if stale {
-                    self.draw_layer(encoder, job.scenery, view, self.shadows.target(key, true), still, clear);
+                    self.draw_layer(encoder, job, view, self.shadows.target(key, true), still, clear);
                 }
                 self.shadows.copy(encoder, key);
                 let whole = self.shadows.target(key, false);
-                self.draw_layer(encoder, job.scenery, view, whole, moving, wgpu::LoadOp::Load);
+                self.draw_layer(encoder, job, view, whole, moving, wgpu::LoadOp::Load);
             }
         }
     }
@@ -148,7 +155,7 @@ impl Raster {
     fn draw_layer(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        scenery: &Scenery,
+        job: &Job<'_>,
         view: usize,
         target: Option<&wgpu::TextureView>,
         casters: &[Batch],
@@ -161,8 +168,9 @@ impl Raster {
             ..Default::default()
         });
         pass.set_pipeline(&self.pipelines.shadow);
-        scenery.bind(&mut pass, view);
+        job.scenery.bind(&mut pass, view);
         self.draw_batches(&mut pass, casters, |_, _| {});
+        self.draw_cuts(&mut pass, casters, job.store, self.pipelines.cuts().map(|cuts| &cuts.shadow));
     }
 
     fn draw_view(
@@ -208,6 +216,29 @@ impl Raster {
                 pass.set_pipeline(pipeline);
             }
         });
+        let cuts = match painting {
+            Painting::Picture(features) => self.pipelines.cut_picture(features),
+            Painting::Measures(_) => self.pipelines.cuts().map(|cuts| &cuts.measures),
+        };
+        self.draw_cuts(pass, &one.batches.visible, one.job.store, cuts);
+    }
+
+    /// Draws what is cut out of the models among batches, after everything that is whole.
+    fn draw_cuts(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        batches: &[Batch],
+        store: &wgpu::BindGroup,
+        pipeline: Option<&wgpu::RenderPipeline>,
+    ) {
+        let Some(pipeline) = pipeline.filter(|_| self.models.are_cut()) else { return };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, store, &[]);
+        for batch in batches {
+            if let Drawn::Model(id) = batch.mesh {
+                self.models.draw(pass, id, batch.instances.clone(), true);
+            }
+        }
     }
 
     /// Draws the sky where nothing is, and what falls before all.
@@ -237,7 +268,7 @@ impl Raster {
             }
             match batch.mesh {
                 Drawn::Model(id) => {
-                    self.models.draw(pass, id, batch.instances.clone());
+                    self.models.draw(pass, id, batch.instances.clone(), false);
                     is_own = false;
                 }
                 Drawn::Own(mesh) => {

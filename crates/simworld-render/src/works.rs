@@ -17,7 +17,7 @@ use crate::gpu::{Features, Globals, Gpu, MOST_MAPS, Planes, Readback, Readbacks,
 use crate::lamps::LampGrids;
 use crate::light::Light;
 use crate::raster::{Job, Raster};
-use crate::raycast::{BUFFERS, Cast, Look, MOST_VIEWS, Raycast};
+use crate::raycast::{BUFFERS, Cast, Look, MOST_VIEWS, Raycast, Rays};
 use crate::resident::{MOST_SLOTS, Residents};
 use crate::shadow::ShadowView;
 use crate::view::View;
@@ -181,13 +181,12 @@ impl Works {
             if casts.is_empty() {
                 casts.push(Cast::Alone);
             }
-            raycast.prepare(&self.gpu, &casts, &sight.falling, table.is_some());
+            let rays = Rays { by_table: table.is_some(), cuts: self.coats.are_cut() };
+            raycast.prepare(&self.gpu, &casts, &sight.falling, rays);
             raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight, in_color)?;
-            if in_color {
-                self.raster.prepare(&self.gpu, features);
-            }
+            self.raster.prepare(&self.gpu, in_color.then_some(features));
             self.raster.hold(&self.gpu, layout.largest)?;
             let job = Job {
                 gpu: &self.gpu,
@@ -288,7 +287,7 @@ impl Works {
         let views = sight.views.iter().zip(&sight.shadows).zip(&sight.falling);
         let mut globals: Vec<Globals> = views
             .map(|((view, shadow), falling)| {
-                let first = light.sky.len() + self.coats.table().len();
+                let first = light.sky.len();
                 let place = if in_color { lamps.around(scene, view.eye, light, first) } else { None };
                 Globals::new(view, light, falling, shadow.as_ref(), place.as_ref())
             })
@@ -303,18 +302,13 @@ impl Works {
         }
         // Rays have the globals of each view beside it.
         let drawn = if is_cast { &globals[..0] } else { &globals[..] };
-        self.scenery.send(
-            &self.gpu,
-            drawn,
-            [&light.sky, self.coats.table(), &lamps.entries],
-            &mut self.residents,
-        )?;
+        self.scenery.send(&self.gpu, drawn, [&light.sky, &lamps.entries], &mut self.residents)?;
         let cover = &light.cover;
         let mut features = Features::default();
         features.set(Features::LAMPS, !lamps.entries.is_empty());
         features.set(Features::WATER, cover.wetness > 0.0 || cover.puddles > 0.0);
         features.set(Features::SNOW, cover.snow_depth > 0.0);
-        features.set(Features::MODELS, is_cast && !self.coats.table().is_empty());
+        features.set(Features::MODELS, is_cast && !self.coats.is_empty());
         Ok((globals, features))
     }
 

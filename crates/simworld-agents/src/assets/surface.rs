@@ -13,8 +13,10 @@ pub struct Surface {
     pub normals: Vec<Vector3>,
     /// Linear-light sRGB primaries in [0, 1], one for each point; times the picture on its part, if there is one.
     pub colors: Vec<[f32; 3]>,
-    /// Where each point lies on the picture of its part, as [`ModelVertex::place`](simworld_core::asset::ModelVertex::place).
+    /// Where each point lies on the pictures of its part, as [`ModelVertex::place`](simworld_core::asset::ModelVertex::place).
     pub places: Vec<[f32; 2]>,
+    /// How much is there of each point, 0 to 1, as [`ModelVertex::alpha`](simworld_core::asset::ModelVertex::alpha).
+    pub alphas: Vec<f32>,
     /// Three points each, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Runs of triangles of one look, in order; together they are all of them.
@@ -85,6 +87,7 @@ impl Surface {
         self.normals = kept.iter().map(|point| self.normals[*point]).collect();
         self.colors = kept.iter().map(|point| self.colors[*point]).collect();
         self.places = kept.iter().map(|point| self.places[*point]).collect();
+        self.alphas = kept.iter().map(|point| self.alphas[*point]).collect();
         self.pick_rig(&kept);
     }
 

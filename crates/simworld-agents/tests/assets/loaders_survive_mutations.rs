@@ -129,6 +129,13 @@ fn models_of_strangers_are_surfaces_or_refused() {
         container(&document, &bytes)
     }));
     seeds.push(crate::assets_common::painted(&crate::assets_common::halves()));
+    let (mut document, bytes) = crate::assets_common::painted_document(&crate::assets_common::halves());
+    let material = &mut document["materials"][0];
+    (material["alphaMode"], material["alphaCutoff"]) = (serde_json::json!("MASK"), serde_json::json!(0.5));
+    for kind in ["normalTexture", "occlusionTexture", "emissiveTexture"] {
+        material[kind] = serde_json::json!({"index": 0});
+    }
+    seeds.push(container(&document, &bytes));
     run("glb", &seeds, |data| {
         let limits =
             GlbLimits { triangles: 400, vertices: 1200, nodes: 100, pixels: 1 << 12, ..GlbLimits::default() };

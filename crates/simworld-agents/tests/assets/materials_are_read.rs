@@ -8,7 +8,9 @@ use serde_json::{Value, json};
 use simworld_agents::assets::{
     GlbError, GlbLimits, ImportConfig, Surface, Unit, export_glb, import_glb, read_glb,
 };
-use simworld_core::asset::{Finish, ModelImage, ModelPart, ModelTexture, Paint, Wrap};
+use simworld_core::asset::{
+    Content, Finish, ModelImage, ModelPart, ModelTexture, Paint, Pictures, Transparency, Wrap,
+};
 
 fn read(document: &Value, bytes: &[u8]) -> Result<Surface, GlbError> {
     read_glb(&container(document, bytes), &GlbLimits::default())
@@ -61,24 +63,38 @@ fn png(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
     png
 }
 
-#[test]
-fn pictures_of_metal_and_light_are_taken_at_their_mean() {
-    // Green says roughness and blue metal: 51 of 255, and 102; on the right 255 of both.
+/// A picture of metal alone: green says roughness and blue metal, 51 of 255, and 102; on the right 255 of both.
+fn of_metal() -> (Value, Vec<u8>) {
     let (mut document, bytes) = painted_document(&png(2, 1, &[0, 51, 102, 9, 255, 255]));
     let pbr = &mut document["materials"][0]["pbrMetallicRoughness"];
     let texture = pbr.as_object_mut().unwrap().remove("baseColorTexture").unwrap();
     pbr["metallicRoughnessTexture"] = texture;
     pbr["roughnessFactor"] = json!(0.5);
-    let Finish { metallic, roughness, .. } = read(&document, &bytes).unwrap().parts[0].finish;
-    assert!((metallic - 0.7).abs() < 1e-6 && (roughness - 0.3).abs() < 1e-6, "{metallic} {roughness}");
+    (document, bytes)
+}
 
+/// A picture of light alone.
+fn of_light() -> (Value, Vec<u8>) {
     let (mut document, bytes) = painted_document(&halves());
     let material = &mut document["materials"][0];
     let texture =
         material["pbrMetallicRoughness"].as_object_mut().unwrap().remove("baseColorTexture").unwrap();
     material["emissiveTexture"] = texture;
     material["emissiveFactor"] = json!([0.5, 1.0, 1.0]);
-    let [red, green, blue] = read(&document, &bytes).unwrap().parts[0].finish.emission;
+    (document, bytes)
+}
+
+#[test]
+fn pictures_of_metal_and_light_that_do_not_stay_are_taken_at_their_mean() {
+    let mean = |(document, bytes): (Value, Vec<u8>)| {
+        let limits = GlbLimits { texture: 0, ..GlbLimits::default() };
+        let surface = read_glb(&container(&document, &bytes), &limits).unwrap();
+        assert!(surface.images.is_empty() && surface.parts[0].pictures == Pictures::default());
+        surface.parts[0].finish
+    };
+    let Finish { metallic, roughness, .. } = mean(of_metal());
+    assert!((metallic - 0.7).abs() < 1e-6 && (roughness - 0.3).abs() < 1e-6, "{metallic} {roughness}");
+    let [red, green, blue] = mean(of_light()).emission;
     // Half of the surface is red, the other half has the light of sRGB 188.
     assert!(
         (red - 0.25).abs() < 1e-6 && green == 0.0 && (blue - 0.2515).abs() < 1e-3,
@@ -87,9 +103,137 @@ fn pictures_of_metal_and_light_are_taken_at_their_mean() {
 }
 
 #[test]
+fn pictures_of_metal_and_light_stay_pictures() {
+    let first = Some(ModelTexture { image: 0, wrap: [Wrap::Repeat; 2] });
+    let (document, bytes) = of_metal();
+    let surface = read(&document, &bytes).unwrap();
+    let part = &surface.parts[0];
+    assert_eq!((part.finish.metallic, part.finish.roughness), (1.0, 0.5), "factors of the picture");
+    assert_eq!((part.texture, part.pictures.metal), (None, first));
+    assert_eq!((surface.images[0].content, surface.images[0].pixels.len()), (Content::Numbers, 6));
+    assert_eq!((surface.places[0], surface.places[8]), ([0.25, 0.5], [0.75, 0.5]));
+
+    let (document, bytes) = of_light();
+    let surface = read(&document, &bytes).unwrap();
+    assert_eq!(surface.parts[0].finish.emission, [0.5, 1.0, 1.0]);
+    assert_eq!((surface.parts[0].pictures.emission, surface.images[0].content), (first, Content::Color));
+}
+
+/// One picture for three kinds is there twice: as colours, and as numbers.
+#[test]
+fn pictures_are_kept_by_what_they_hold() {
+    let (mut document, bytes) = painted_document(&halves());
+    let material = &mut document["materials"][0];
+    material["normalTexture"] = json!({"index": 0, "scale": 0.5});
+    material["occlusionTexture"] = json!({"index": 0, "strength": 0.25});
+    let surface = read(&document, &bytes).unwrap();
+    let pictures = surface.parts[0].pictures;
+    let texture = |image| Some(ModelTexture { image, wrap: [Wrap::Repeat; 2] });
+    assert_eq!(
+        (surface.parts[0].texture, pictures.shade, pictures.bumps),
+        (texture(0), texture(1), texture(1))
+    );
+    assert_eq!((pictures.shade_strength, pictures.bump_scale), (0.25, 0.5));
+    assert_eq!(
+        surface.images.iter().map(|image| image.content).collect::<Vec<_>>(),
+        [Content::Color, Content::Numbers]
+    );
+    let model =
+        import_glb(&container(&document, &bytes), &thing("a crate"), &metres()).unwrap().asset.model.unwrap();
+    assert_eq!(model.parts[0].pictures, pictures);
+    // What lies otherwise has no place of its own: it is passed over.
+    document["materials"][0]["normalTexture"]["extensions"] =
+        json!({"KHR_texture_transform": {"offset": [0.1, 0.0]}});
+    let surface = read(&document, &bytes).unwrap();
+    assert_eq!((surface.parts[0].pictures.bumps, surface.parts[0].pictures.shade), (None, texture(1)));
+    // What is not to be lit has none.
+    document["materials"][0]["extensions"] = json!({"KHR_materials_unlit": {}});
+    assert_eq!(
+        read(&document, &bytes).unwrap().parts[0].pictures,
+        Pictures { bumps: None, ..Pictures::default() }
+    );
+}
+
+fn metres() -> ImportConfig {
+    ImportConfig { unit: Unit::Metres, ..ImportConfig::default() }
+}
+
+/// A file of two boxes, whose material has this beside a picture whose left half is there by 51 of 255.
+fn clear(material: &[(&str, Value)]) -> (Value, Vec<u8>) {
+    let mut picture = Vec::new();
+    let mut encoder = png::Encoder::new(&mut picture, 2, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(&[255, 0, 0, 51, 0, 0, 188, 255]).unwrap();
+    let (mut document, bytes) = painted_document(&picture);
+    document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = json!([1.0, 1.0, 1.0, 0.75]);
+    for (name, value) in material {
+        document["materials"][0][*name] = value.clone();
+    }
+    (document, bytes)
+}
+
+#[test]
+fn alpha_is_read_where_the_material_says_what_becomes_of_it() {
+    for (material, expected) in [
+        (vec![], Transparency::Opaque),
+        (vec![("alphaMode", json!("OPAQUE")), ("alphaCutoff", json!(0.2))], Transparency::Opaque),
+        (vec![("alphaMode", json!("MASK"))], Transparency::Cutout { cutoff: 0.5 }),
+        (vec![("alphaMode", json!("MASK")), ("alphaCutoff", json!(0))], Transparency::Cutout { cutoff: 0.0 }),
+        (
+            vec![("alphaMode", json!("MASK")), ("alphaCutoff", json!(1e30))],
+            Transparency::Cutout { cutoff: 2.0 },
+        ),
+        (vec![("alphaMode", json!("BLEND"))], Transparency::Blend),
+    ] {
+        let (document, bytes) = clear(&material);
+        let surface = read(&document, &bytes).unwrap();
+        assert_eq!(surface.parts[0].transparency, expected, "{material:?}");
+        let is_opaque = expected == Transparency::Opaque;
+        assert_eq!(surface.images[0].alpha, if is_opaque { vec![] } else { vec![51, 255] });
+        assert!(surface.alphas.iter().all(|alpha| *alpha == if is_opaque { 1.0 } else { 0.75 }));
+        let asset = import_glb(&container(&document, &bytes), &thing("a crate"), &metres()).unwrap().asset;
+        let model = asset.model.as_deref().unwrap();
+        assert_eq!(
+            (model.images[0].alpha.len(), model.parts[0].transparency),
+            (if is_opaque { 0 } else { 2 }, expected)
+        );
+        // And it is written as it was read.
+        let again = read_glb(&export_glb(model), &GlbLimits::default()).unwrap();
+        assert_eq!((&again.images, again.parts[0].transparency), (&model.images, expected));
+        assert!(again.alphas.iter().all(|alpha| *alpha == model.vertices[0].alpha));
+    }
+}
+
+#[test]
+fn what_is_no_transparency_is_refused() {
+    for (name, value, said) in [
+        ("alphaMode", json!("DITHER"), "DITHER"),
+        ("alphaMode", json!("mask"), "MASK"),
+        ("alphaMode", json!(3), "JSON"),
+        ("alphaCutoff", json!(-0.1), "0 or more"),
+        ("alphaCutoff", json!("half"), "JSON"),
+        ("normalTexture", json!({"index": 7}), "texture 7"),
+        ("normalTexture", json!({}), "JSON"),
+        ("occlusionTexture", json!({"index": 0, "texCoord": 2}), "TEXCOORD_2"),
+    ] {
+        let (document, bytes) = clear(&[(name, value)]);
+        let error = read(&document, &bytes).unwrap_err().to_string();
+        assert!(error.contains(said), "{error:?} is not about {said:?}");
+    }
+    // Far factors are brought into their ranges.
+    let (document, bytes) = clear(&[
+        ("normalTexture", json!({"index": 0, "scale": -1e300})),
+        ("occlusionTexture", json!({"index": 0, "strength": 7.0})),
+    ]);
+    let pictures = read(&document, &bytes).unwrap().parts[0].pictures;
+    assert_eq!((pictures.bump_scale, pictures.shade_strength), (-100.0, 1.0));
+}
+
+#[test]
 fn a_picture_stays_a_picture() {
     let surface = read_glb(&painted(&halves()), &GlbLimits::default()).unwrap();
-    let image = ModelImage { width: 2, height: 1, pixels: vec![255, 0, 0, 0, 0, 188] };
+    let pixels = vec![255, 0, 0, 0, 0, 188];
+    let image = ModelImage { width: 2, height: 1, pixels, ..ModelImage::default() };
     assert_eq!(surface.images, [image]);
     assert_eq!(surface.parts[0].texture, Some(ModelTexture { image: 0, wrap: [Wrap::Repeat; 2] }));
     assert_eq!(surface.parts[0].paint, Paint::Own);
@@ -145,7 +289,7 @@ fn what_has_pictures_and_shines_reads_back() {
     }
     let image = |width: u32, height: u32, first: u8| {
         let pixels = (0..width * height * 3).map(|k| first.wrapping_add(k as u8)).collect();
-        ModelImage { width, height, pixels }
+        ModelImage { width, height, pixels, ..ModelImage::default() }
     };
     written.images = vec![image(5, 3, 7), image(2, 2, 90)];
     let bytes = export_glb(&written);
@@ -250,6 +394,11 @@ proptest! {
         material["pbrMetallicRoughness"]["roughnessFactor"] = json!(roughness);
         material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = json!({"index": 0});
         material["emissiveFactor"] = json!([shine, 0.5, 1.0]);
+        material["emissiveTexture"] = json!({"index": 0});
+        material["occlusionTexture"] = json!({"index": 0, "strength": shine});
+        material["normalTexture"] = json!({"index": 0, "scale": metallic});
+        material["alphaMode"] = json!(if shine > 1.0 { "MASK" } else { "BLEND" });
+        material["alphaCutoff"] = json!(roughness.abs());
         for (at, byte) in changes {
             let at = at.index(bytes.len());
             bytes[at] = byte;

@@ -6,7 +6,10 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Asset, Channel, Finish, Joint, Local, Model, RigDesc, Season};
+use super::{
+    Asset, Channel, Finish, Joint, Local, Model, ModelPart, ModelTexture, Pictures, RigDesc, Season,
+    Transparency,
+};
 use crate::hash::StateHasher;
 
 /// The content address of an asset or of a file: XXH3 with 128 bits, 32 hex digits in files.
@@ -99,19 +102,41 @@ fn color(hasher: &mut StateHasher, color: Option<[f32; 3]>) {
     }
 }
 
-fn content_of(model: &Model, hasher: &mut StateHasher) {
-    let triple = |hasher: &mut StateHasher, numbers: &[f32; 3]| {
-        for number in numbers {
-            hasher.bytes(&number.to_bits().to_le_bytes());
-        }
+fn triple(hasher: &mut StateHasher, numbers: &[f32; 3]) {
+    for number in numbers {
+        hasher.bytes(&number.to_bits().to_le_bytes());
+    }
+}
+
+fn part_of(part: &ModelPart, hasher: &mut StateHasher) {
+    hasher.str(&part.name).u64(u64::from(part.triangles)).u64(part.paint as u64);
+    let Finish { metallic, roughness, emission } = part.finish;
+    triple(hasher, &[metallic, roughness, 0.0]);
+    triple(hasher, &emission);
+    let (kind, cutoff) = match part.transparency {
+        Transparency::Opaque => (0, 0.0),
+        Transparency::Cutout { cutoff } => (1, cutoff),
+        Transparency::Blend => (2, 0.0),
     };
+    let Pictures { metal, emission, shade, shade_strength, bumps, bump_scale } = part.pictures;
+    triple(hasher.u64(kind), &[cutoff, shade_strength, bump_scale]);
+    for texture in [part.texture, metal, emission, shade, bumps] {
+        let Some(ModelTexture { image, wrap }) = texture else {
+            hasher.u64(u64::MAX);
+            continue;
+        };
+        wrap.iter().fold(hasher.u64(u64::from(image)), |hasher, wrap| hasher.u64(*wrap as u64));
+    }
+}
+
+fn content_of(model: &Model, hasher: &mut StateHasher) {
     hasher.u64(model.vertices.len() as u64);
     for vertex in &model.vertices {
         for numbers in [&vertex.position, &vertex.normal, &vertex.color] {
             triple(hasher, numbers);
         }
         let [right, down] = vertex.place;
-        triple(hasher, &[right, down, 0.0]);
+        triple(hasher, &[right, down, vertex.alpha]);
     }
     hasher.u64(model.triangles.len() as u64);
     for corner in model.triangles.iter().flatten() {
@@ -119,14 +144,7 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
     }
     hasher.u64(model.parts.len() as u64);
     for part in &model.parts {
-        hasher.str(&part.name).u64(u64::from(part.triangles)).u64(part.paint as u64);
-        let Finish { metallic, roughness, emission } = part.finish;
-        triple(hasher, &[metallic, roughness, 0.0]);
-        triple(hasher, &emission);
-        hasher.u64(part.texture.map_or(u64::MAX, |texture| u64::from(texture.image)));
-        for wrap in part.texture.iter().flat_map(|texture| texture.wrap) {
-            hasher.u64(wrap as u64);
-        }
+        part_of(part, hasher);
     }
     hasher.u64(model.hulls.len() as u64);
     for hull in &model.hulls {
@@ -139,6 +157,7 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
     for image in &model.images {
         hasher.u64(u64::from(image.width)).u64(u64::from(image.height));
         hasher.u64(image.pixels.len() as u64).bytes(&image.pixels);
+        hasher.u64(image.alpha.len() as u64).bytes(&image.alpha).u64(image.content as u64);
     }
     hasher.u64(u64::from(model.rig.is_some()));
     if let Some(rig) = &model.rig {
@@ -195,8 +214,8 @@ mod tests {
 
     use super::*;
     use crate::asset::{
-        Affordance, AffordanceSet, Bone, Clip, Curve, Hull, Interpolation, Material, ModelImage, ModelPart,
-        ModelTexture, ModelVertex, Path, Rig, Seasons, SkinVertex, Wrap,
+        Affordance, AffordanceSet, Bone, Clip, Content, Curve, Hull, Interpolation, Material, ModelImage,
+        ModelVertex, Path, Rig, Seasons, SkinVertex, Wrap,
     };
     use crate::scene::{EntityKind, Place, Shape};
 
@@ -212,7 +231,7 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             parts: vec![ModelPart { name: "seat".to_owned(), triangles: 1, ..ModelPart::default() }],
             hulls: vec![Hull { points: corners.to_vec() }],
-            images: vec![ModelImage { width: 2, height: 1, pixels: vec![9; 6] }],
+            images: vec![ModelImage { width: 2, height: 1, pixels: vec![9; 6], ..ModelImage::default() }],
             rig: None,
         }
     }
@@ -240,6 +259,8 @@ mod tests {
     fn lies(model: &mut Model, wrap: [Wrap; 2]) {
         model.parts[0].texture = Some(ModelTexture { image: 0, wrap });
     }
+
+    const SOME: Option<ModelTexture> = Some(ModelTexture { image: 0, wrap: [Wrap::Repeat; 2] });
 
     #[test]
     fn every_other_field_is_content() {
@@ -274,6 +295,18 @@ mod tests {
             spoilt(|model| lies(model, [Wrap::Repeat, Wrap::Clamp])),
             spoilt(|model| model.images[0].pixels[5] = 8),
             spoilt(|model| (model.images[0].width, model.images[0].height) = (1, 2)),
+            spoilt(|model| model.vertices[1].alpha = 0.5),
+            spoilt(|model| model.images[0].alpha = vec![255, 255]),
+            spoilt(|model| model.images[0].content = Content::Numbers),
+            spoilt(|model| model.parts[0].transparency = Transparency::Blend),
+            spoilt(|model| model.parts[0].transparency = Transparency::Cutout { cutoff: 0.0 }),
+            spoilt(|model| model.parts[0].transparency = Transparency::Cutout { cutoff: 0.5 }),
+            spoilt(|model| model.parts[0].pictures.metal = SOME),
+            spoilt(|model| model.parts[0].pictures.emission = SOME),
+            spoilt(|model| model.parts[0].pictures.shade = SOME),
+            spoilt(|model| model.parts[0].pictures.bumps = SOME),
+            spoilt(|model| model.parts[0].pictures.shade_strength = 0.5),
+            spoilt(|model| model.parts[0].pictures.bump_scale = 0.5),
             spoilt(|model| moves(model, |_| {})),
             spoilt(|model| {
                 moves(model, |rig| {

@@ -1,6 +1,8 @@
-//! How the surface of a model's part takes light, and the picture that lies on it.
+//! How the surface of a model's part takes light, and the pictures that lie on it.
 
 use serde::{Deserialize, Serialize};
+
+use super::image::Content;
 
 /// The brightest light that a part may have of its own, in each channel of [`Finish::emission`].
 pub const BRIGHTEST: f32 = 1000.0;
@@ -38,6 +40,67 @@ pub struct ModelTexture {
     pub image: u32,
     /// What lies beyond its sides, and beyond its top and bottom.
     pub wrap: [Wrap; 2],
+}
+
+/// The pictures on a part beside that of its colour, which say place by place how it takes light. All of them lie as that one does. Those of
+/// metal, shade and bumps hold [numbers](super::Content::Numbers).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Pictures {
+    /// Green is a factor of [`Finish::roughness`], blue one of [`Finish::metallic`].
+    pub metal: Option<ModelTexture>,
+    /// A factor of [`Finish::emission`].
+    pub emission: Option<ModelTexture>,
+    /// Red is the share of the sky's light that comes there.
+    pub shade: Option<ModelTexture>,
+    /// How far the picture of shade counts, 0 (not at all) to 1.
+    pub shade_strength: f32,
+    /// Normals in the frame of the picture: red is to its right, green to its top, blue out of the surface, each from -1 to 1.
+    pub bumps: Option<ModelTexture>,
+    /// What the first two of a normal are multiplied by, at most [`STEEPEST`] either way.
+    pub bump_scale: f32,
+}
+
+impl Default for Pictures {
+    fn default() -> Self {
+        Self { metal: None, emission: None, shade: None, shade_strength: 1.0, bumps: None, bump_scale: 1.0 }
+    }
+}
+
+impl Pictures {
+    /// Those that are there, with what each has to hold.
+    pub fn all(&self) -> impl Iterator<Item = (ModelTexture, Content)> {
+        let kinds = [Content::Numbers, Content::Color, Content::Numbers, Content::Numbers];
+        let textures = [self.metal, self.emission, self.shade, self.bumps];
+        textures.into_iter().zip(kinds).filter_map(|(texture, kind)| Some((texture?, kind)))
+    }
+
+    /// Whether its factors are within their ranges.
+    pub(super) fn is_sound(&self) -> bool {
+        (0.0..=1.0).contains(&self.shade_strength) && (-STEEPEST..=STEEPEST).contains(&self.bump_scale)
+    }
+}
+
+/// The most by which bumps may be made steeper.
+pub const STEEPEST: f32 = 100.0;
+
+/// Above this nothing may stand in [`Transparency::Cutout`]; above 1 nothing of a part is there.
+pub const MOST_CUTOFF: f32 = 2.0;
+
+/// What becomes of a part where its alpha is below 1: that of its vertices times that of its picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Transparency {
+    /// Nothing: alpha is passed over.
+    #[default]
+    Opaque,
+    /// Where it is below the cutoff there is nothing: nothing is seen, and light goes through.
+    Cutout {
+        /// 0 to [`MOST_CUTOFF`].
+        cutoff: f32,
+    },
+    /// As much is seen of what is behind as is lacking to 1.
+    Blend,
 }
 
 /// What lies beyond the edge of a picture.

@@ -13,13 +13,14 @@ pub const LONGEST_IMAGE: u32 = 4096;
 /// The most pixels that the pictures of one model may have together.
 pub const MOST_PIXELS: u64 = 4096 * 4096;
 
-/// A picture: sRGB, three bytes a pixel, row by row from the upper left corner.
+/// A picture: three bytes a pixel, row by row from the upper left corner, and how much is there of each.
 ///
 /// ```
 /// use simworld_core::asset::ModelImage;
-/// let image = ModelImage { width: 2, height: 1, pixels: vec![255, 255, 255, 0, 0, 0] };
+/// let pixels = vec![255, 255, 255, 0, 0, 0];
+/// let image = ModelImage { width: 2, height: 1, pixels, ..ModelImage::default() };
 /// // Half of the light, which is more than half of the number.
-/// assert_eq!(image.halved(), ModelImage { width: 1, height: 1, pixels: vec![188; 3] });
+/// assert_eq!(image.halved(), ModelImage { width: 1, height: 1, pixels: vec![188; 3], ..image });
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -30,6 +31,23 @@ pub struct ModelImage {
     pub height: u32,
     /// Red, green and blue of each.
     pub pixels: Vec<u8>,
+    /// How much is there of each, 255 for all of it; empty where that is so everywhere.
+    #[serde(default)]
+    pub alpha: Vec<u8>,
+    /// What its bytes stand for.
+    #[serde(default)]
+    pub content: Content,
+}
+
+/// What the bytes of a picture stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Content {
+    /// Colours, as sRGB has them.
+    #[default]
+    Color,
+    /// Numbers, of which 255 is 1.
+    Numbers,
 }
 
 /// Light of each sRGB value, and of the values between them at which rounding goes to the next.
@@ -43,14 +61,26 @@ impl ModelImage {
     pub fn is_whole(&self) -> bool {
         let sides = 1..=LONGEST_IMAGE;
         let has_size = sides.contains(&self.width) && sides.contains(&self.height);
-        has_size && self.pixels.len() as u64 == u64::from(self.width) * u64::from(self.height) * 3
+        let count = u64::from(self.width) * u64::from(self.height);
+        let has_alpha = self.alpha.is_empty() || self.alpha.len() as u64 == count;
+        has_size && self.pixels.len() as u64 == count * 3 && has_alpha
     }
 
-    /// A pixel in linear light; black where there is none.
+    /// How much is there of a pixel, 0 to 1.
+    pub fn alpha_at(&self, column: u32, row: u32) -> f32 {
+        let at = row as usize * self.width as usize + column as usize;
+        self.alpha.get(at).map_or(1.0, |alpha| f32::from(*alpha) / 255.0)
+    }
+
+    /// A pixel in linear light, or its numbers; black where there is none.
     pub fn light_at(&self, column: u32, row: u32) -> [f32; 3] {
         let first = (row as usize * self.width as usize + column as usize) * 3;
         let pixel = self.pixels.get(first..first + 3).filter(|_| column < self.width);
-        pixel.map_or([0.0; 3], |pixel| std::array::from_fn(|channel| light_of(pixel[channel])))
+        let of = |value: u8| match self.content {
+            Content::Color => light_of(value),
+            Content::Numbers => f32::from(value) / 255.0,
+        };
+        pixel.map_or([0.0; 3], |pixel| std::array::from_fn(|channel| of(pixel[channel])))
     }
 
     /// The pixel at a place in shares of its sides, from the upper left corner; black in a picture that is not whole.
@@ -63,25 +93,45 @@ impl ModelImage {
             .map_or([0; 3], |pixel| std::array::from_fn(|channel| pixel[channel]))
     }
 
-    /// The picture in half its size, rounded down but not below one pixel: each pixel has the mean light of what it covers.
+    /// The picture in half its size, rounded down but not below one pixel: each pixel has the mean light, or the mean of the numbers, of what
+    /// it covers, by how much is there of that.
     #[must_use]
     pub fn halved(&self) -> Self {
         let [width, height] = [self.width, self.height].map(|side| (side / 2).max(1));
         let columns = covered(self.width, width);
-        let mut pixels = Vec::with_capacity(width as usize * height as usize * 3);
+        let mut half = Self { width, height, content: self.content, ..Self::default() };
+        half.pixels.reserve(width as usize * height as usize * 3);
         for rows in &covered(self.height, height) {
             for across in &columns {
-                let mut sum = [0.0_f32; 3];
-                for (row, share) in rows.iter().filter(|(_, share)| *share > 0.0) {
-                    for (column, part) in across.iter().filter(|(_, part)| *part > 0.0) {
-                        let light = self.light_at(*column, *row);
-                        sum = std::array::from_fn(|channel| sum[channel] + light[channel] * (share * part));
-                    }
-                }
-                pixels.extend(sum.map(value_of));
+                self.add_mean(&mut half, rows, across);
             }
         }
-        Self { width, height, pixels }
+        half
+    }
+
+    /// Adds the mean of what a pixel of a smaller picture covers to that.
+    fn add_mean(&self, half: &mut Self, rows: &[(u32, f32); 3], across: &[(u32, f32); 3]) {
+        let (mut plain, mut weighed, mut there) = ([0.0_f32; 3], [0.0_f32; 3], 0.0_f32);
+        for (row, share) in rows.iter().filter(|(_, share)| *share > 0.0) {
+            for (column, part) in across.iter().filter(|(_, part)| *part > 0.0) {
+                let (light, share) = (self.light_at(*column, *row), share * part);
+                plain = std::array::from_fn(|channel| plain[channel] + light[channel] * share);
+                if !self.alpha.is_empty() {
+                    let alpha = self.alpha_at(*column, *row) * share;
+                    weighed = std::array::from_fn(|channel| weighed[channel] + light[channel] * alpha);
+                    there += alpha;
+                }
+            }
+        }
+        // What is not there has no say in the colour, unless nothing is.
+        let light = if there > 0.0 { weighed.map(|channel| channel / there) } else { plain };
+        half.pixels.extend(light.map(|channel| match self.content {
+            Content::Color => value_of(channel),
+            Content::Numbers => (channel * 255.0).round() as u8,
+        }));
+        if !self.alpha.is_empty() {
+            half.alpha.push((there * 255.0).round() as u8);
+        }
     }
 }
 
@@ -144,7 +194,8 @@ mod tests {
     #[test]
     fn places_beyond_the_edges_are_those_that_the_wrap_says() {
         let (red, blue) = ([255, 0, 0], [0, 0, 255]);
-        let image = ModelImage { width: 2, height: 1, pixels: [red, blue].concat() };
+        let pixels = [red, blue].concat();
+        let image = ModelImage { width: 2, height: 1, pixels, ..ModelImage::default() };
         let at = |right, wrap| image.pixel_at([right, 0.5], [wrap, Wrap::Repeat]);
         for (right, repeated, clamped, mirrored) in
             [(0.2, red, red, red), (0.8, blue, blue, blue), (1.2, red, blue, blue), (-0.2, blue, red, red)]
@@ -164,7 +215,7 @@ mod tests {
         for (width, height) in [(4, 4), (5, 3), (7, 1), (1, 9), (6, 5)] {
             let count = width * height;
             let pixels = (0..count * 3).map(|k| if k * 7 % 5 < 2 { 220 } else { 40 }).collect();
-            let image = ModelImage { width, height, pixels };
+            let image = ModelImage { width, height, pixels, ..ModelImage::default() };
             let mean = |image: &ModelImage| {
                 let sum: f32 = image.pixels.iter().map(|value| light_of(*value)).sum();
                 sum / image.pixels.len() as f32
@@ -173,5 +224,25 @@ mod tests {
             assert_eq!((half.width, half.height), ((width / 2).max(1), (height / 2).max(1)));
             assert!(half.is_whole() && (mean(&half) - mean(&image)).abs() < 4e-3, "{width} {height}");
         }
+    }
+
+    #[test]
+    fn what_is_not_there_has_no_say_in_the_colour() {
+        let pixels = [[200, 0, 0], [0, 0, 200]].concat();
+        let image = ModelImage { width: 2, height: 1, pixels, alpha: vec![255, 0], ..ModelImage::default() };
+        let half = image.halved();
+        assert_eq!((half.pixels, half.alpha), (vec![200, 0, 0], vec![128]));
+        let gone = ModelImage { alpha: vec![0, 0], ..image.clone() };
+        assert_eq!((gone.halved().pixels, gone.halved().alpha), (vec![146, 0, 146], vec![0]));
+        assert!(image.is_whole() && !ModelImage { alpha: vec![255], ..image }.is_whole());
+    }
+
+    #[test]
+    fn numbers_have_the_mean_of_numbers() {
+        let pixels = vec![255, 10, 0, 0, 20, 0];
+        let image =
+            ModelImage { width: 2, height: 1, pixels, content: Content::Numbers, ..ModelImage::default() };
+        assert_eq!(image.halved().pixels, [128, 15, 0]);
+        assert_eq!(image.halved().content, Content::Numbers);
     }
 }

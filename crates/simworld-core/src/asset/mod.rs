@@ -10,6 +10,7 @@ mod image;
 mod library;
 mod material;
 mod model;
+mod model_error;
 mod rig;
 mod row;
 mod season;
@@ -20,10 +21,11 @@ use std::sync::Arc;
 pub use affordance::{Affordance, AffordanceSet};
 pub use catalogue::Catalogue;
 pub use digest::{ContentId, ContentIdError};
-pub use finish::{BRIGHTEST, Finish, ModelTexture, Wrap};
-pub use image::{LONGEST_IMAGE, MOST_PIXELS, ModelImage, light_of};
+pub use finish::{BRIGHTEST, Finish, MOST_CUTOFF, ModelTexture, Pictures, STEEPEST, Transparency, Wrap};
+pub use image::{Content, LONGEST_IMAGE, MOST_PIXELS, ModelImage, light_of};
 pub use material::Material;
-pub use model::{FARTHEST_PLACE, Hull, LARGEST_MODEL, Model, ModelError, ModelPart, ModelVertex, Paint};
+pub use model::{FARTHEST_PLACE, Hull, LARGEST_MODEL, Model, ModelPart, ModelVertex, Paint};
+pub use model_error::ModelError;
 pub use rig::{
     Bone, Channel, Clip, Curve, Interpolation, Joint, LONGEST_CLIP_NAME, Local, MOST_WORK, POSE_RATE, Path,
     PosedModel, Rig, RigDesc, RigError, SkinVertex,

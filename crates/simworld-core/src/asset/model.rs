@@ -1,119 +1,12 @@
 //! Models: what an asset looks like and is met as, finer than its collider.
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::finish::{BRIGHTEST, Finish, ModelTexture};
-use super::image::{LONGEST_IMAGE, MOST_PIXELS, ModelImage};
+use super::finish::{BRIGHTEST, Finish, MOST_CUTOFF, ModelTexture, Pictures, Transparency};
+use super::image::{Content, MOST_PIXELS, ModelImage};
+use super::model_error::ModelError;
 use super::rig::Rig;
 use crate::geometry::Vector3;
-
-/// Why a model is none.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ModelError {
-    /// It has no triangle or no hull.
-    #[error("it has no {what}: give at least one")]
-    Empty {
-        /// What lacks.
-        what: &'static str,
-    },
-    /// A number is none, or far off.
-    #[error("{what} {index} is {value:?}: give finite numbers within {LARGEST_MODEL} m of the origin")]
-    Number {
-        /// Of what.
-        what: &'static str,
-        /// Which.
-        index: usize,
-        /// What was given.
-        value: [f32; 3],
-    },
-    /// A triangle names a vertex that is not there.
-    #[error("triangle {index} has vertex {vertex}, and there are {count}: count from 0")]
-    Vertex {
-        /// Which triangle.
-        index: usize,
-        /// Which vertex.
-        vertex: u32,
-        /// How many there are.
-        count: usize,
-    },
-    /// The parts do not share out the triangles.
-    #[error("its parts have {parts} triangles together, and it has {triangles}: each belongs to one part")]
-    Parts {
-        /// How many the parts have.
-        parts: u64,
-        /// How many there are.
-        triangles: usize,
-    },
-    /// A hull has no room inside.
-    #[error("hull {index} has {points} points: a solid has at least four")]
-    Hull {
-        /// Which.
-        index: usize,
-        /// How many points it has.
-        points: usize,
-    },
-    /// How a part takes light is out of range.
-    #[error(
-        "part {part} is {finish:?}: give metal and roughness from 0 to 1, and light of its own from 0 to {BRIGHTEST}"
-    )]
-    Finish {
-        /// Which part.
-        part: usize,
-        /// What was given.
-        finish: Finish,
-    },
-    /// A part names a picture that is not there.
-    #[error("part {part} has image {image}, and there are {count}: count from 0")]
-    Image {
-        /// Which part.
-        part: usize,
-        /// Which picture.
-        image: u32,
-        /// How many there are.
-        count: usize,
-    },
-    /// A picture is none.
-    #[error(
-        "image {index} is {width} x {height} with {bytes} bytes: give 1 to {LONGEST_IMAGE} pixels each way, three bytes each"
-    )]
-    Picture {
-        /// Which.
-        index: usize,
-        /// Pixels in a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Bytes of its pixels.
-        bytes: usize,
-    },
-    /// The pictures are too large together.
-    #[error("its images have {pixels} pixels together, and {MOST_PIXELS} are the most: halve them")]
-    Pixels {
-        /// How many they have.
-        pixels: u64,
-    },
-    /// Its rig carries other vertices.
-    #[error("its rig carries {rig} vertices, and it has {vertices}: give as many, in the same order")]
-    Rig {
-        /// How many the rig carries.
-        rig: usize,
-        /// How many there are.
-        vertices: usize,
-    },
-    /// It does not fit its collider.
-    #[error(
-        "it is {model:?} m long, wide and high, and its collider {collider:?}: give a collider that is as large, and stand \
-         the model on its origin"
-    )]
-    Size {
-        /// The box around the model, m.
-        model: [f64; 3],
-        /// The box around the collider, m.
-        collider: [f64; 3],
-    },
-}
 
 /// How far a point of a model may be from its origin, m.
 pub const LARGEST_MODEL: f32 = 1000.0;
@@ -149,7 +42,7 @@ pub struct Model {
 }
 
 /// A corner of triangles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelVertex {
     /// Body frame, m.
     pub position: [f32; 3],
@@ -161,6 +54,20 @@ pub struct ModelVertex {
     /// sides, beyond [0, 1] where the picture goes on.
     #[serde(default)]
     pub place: [f32; 2],
+    /// How much is there, 0 to 1; times that of the picture on its part. What follows from it the part [says](ModelPart::transparency).
+    #[serde(default = "whole")]
+    pub alpha: f32,
+}
+
+const fn whole() -> f32 {
+    1.0
+}
+
+impl Default for ModelVertex {
+    /// At the origin, without a normal, black, and all of it there.
+    fn default() -> Self {
+        Self { position: [0.0; 3], normal: [0.0; 3], color: [0.0; 3], place: [0.0; 2], alpha: whole() }
+    }
 }
 
 /// A run of triangles of one look.
@@ -178,6 +85,12 @@ pub struct ModelPart {
     /// The picture on it.
     #[serde(default)]
     pub texture: Option<ModelTexture>,
+    /// What becomes of it where its alpha is below 1.
+    #[serde(default)]
+    pub transparency: Transparency,
+    /// Pictures that say place by place how it takes light.
+    #[serde(default)]
+    pub pictures: Pictures,
 }
 
 /// Whose colour a part has.
@@ -257,6 +170,10 @@ impl Model {
             checked("the colour of vertex", index, vertex.color, 1.0)?;
             let [right, down] = vertex.place;
             checked("the place on a picture of vertex", index, [right, down, 0.0], FARTHEST_PLACE)?;
+            if !(0.0..=1.0).contains(&vertex.alpha) {
+                let value = [vertex.alpha, 0.0, 0.0];
+                return Err(ModelError::Number { what: "the alpha of vertex", index, value });
+            }
         }
         let count = self.vertices.len();
         for (index, triangle) in self.triangles.iter().enumerate() {
@@ -277,15 +194,8 @@ impl Model {
     }
 
     fn validate_looks(&self) -> Result<(), ModelError> {
-        let count = self.images.len();
-        for (part, ModelPart { finish, texture, .. }) in self.parts.iter().enumerate() {
-            let shares = [finish.metallic, finish.roughness].iter().all(|share| (0.0..=1.0).contains(share));
-            if !shares || !finish.emission.iter().all(|light| (0.0..=BRIGHTEST).contains(light)) {
-                return Err(ModelError::Finish { part, finish: *finish });
-            }
-            if let Some(texture) = texture.filter(|texture| texture.image as usize >= count) {
-                return Err(ModelError::Image { part, image: texture.image, count });
-            }
+        for (index, part) in self.parts.iter().enumerate() {
+            self.validate_part(index, part)?;
         }
         if let Some((index, image)) = self.images.iter().enumerate().find(|(_, image)| !image.is_whole()) {
             let bytes = image.pixels.len();
@@ -293,6 +203,33 @@ impl Model {
         }
         let pixels = self.images.iter().map(|image| u64::from(image.width) * u64::from(image.height)).sum();
         if pixels > MOST_PIXELS { Err(ModelError::Pixels { pixels }) } else { Ok(()) }
+    }
+
+    fn validate_part(&self, part: usize, look: &ModelPart) -> Result<(), ModelError> {
+        let (finish, transparency, pictures) = (look.finish, look.transparency, look.pictures);
+        let shares = [finish.metallic, finish.roughness].iter().all(|share| (0.0..=1.0).contains(share));
+        if !shares || !finish.emission.iter().all(|light| (0.0..=BRIGHTEST).contains(light)) {
+            return Err(ModelError::Finish { part, finish });
+        }
+        if let Transparency::Cutout { cutoff } = transparency
+            && !(0.0..=MOST_CUTOFF).contains(&cutoff)
+        {
+            return Err(ModelError::Transparency { part, transparency });
+        }
+        if !pictures.is_sound() {
+            return Err(ModelError::Pictures { part, pictures });
+        }
+        let own = look.texture.map(|texture| (texture, Content::Color));
+        for (ModelTexture { image, .. }, wanted) in own.into_iter().chain(pictures.all()) {
+            let count = self.images.len();
+            let Some(found) = self.images.get(image as usize) else {
+                return Err(ModelError::Image { part, image, count });
+            };
+            if found.content != wanted {
+                return Err(ModelError::Content { part, image, wanted, content: found.content });
+            }
+        }
+        Ok(())
     }
 
     fn fits(&self, collider: Vector3) -> Result<(), ModelError> {
@@ -318,7 +255,7 @@ fn checked(what: &'static str, index: usize, value: [f32; 3], limit: f32) -> Res
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::asset::Wrap;
+    use crate::asset::{LONGEST_IMAGE, Wrap};
 
     fn wedge() -> Model {
         let corners = [[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 1.0]];
@@ -373,6 +310,8 @@ mod tests {
         ));
         assert!(matches!(is_none(|model| model.vertices[0].color[0] = 2.0), ModelError::Number { .. }));
         assert!(matches!(is_none(|model| model.vertices[0].place[1] = f32::NAN), ModelError::Number { .. }));
+        assert!(matches!(is_none(|model| model.vertices[0].alpha = 1.5), ModelError::Number { .. }));
+        assert!(matches!(is_none(|model| model.vertices[0].alpha = -0.1), ModelError::Number { .. }));
     }
 
     #[test]
@@ -385,7 +324,7 @@ mod tests {
         };
         let plain = |width: u32, height: u32| {
             let pixels = vec![9; width as usize * height as usize * 3];
-            ModelImage { width, height, pixels }
+            ModelImage { width, height, pixels, ..ModelImage::default() }
         };
         let dull = Finish::default();
         assert_eq!(with(dull, 0, vec![plain(3, 1)]), Ok(()));
@@ -405,7 +344,8 @@ mod tests {
         for image in [
             ModelImage::default(),
             ModelImage { width: 4, ..plain(3, 1) },
-            ModelImage { width: u32::MAX, height: u32::MAX, pixels: vec![] },
+            ModelImage { width: u32::MAX, height: u32::MAX, ..ModelImage::default() },
+            ModelImage { alpha: vec![0; 2], ..plain(3, 1) },
             plain(LONGEST_IMAGE + 1, 1),
         ] {
             let error = with(dull, 0, vec![image]).unwrap_err();
@@ -413,5 +353,45 @@ mod tests {
         }
         let many = vec![plain(LONGEST_IMAGE, LONGEST_IMAGE / 2); 3];
         assert!(matches!(with(dull, 0, many), Err(ModelError::Pixels { .. })));
+    }
+
+    #[test]
+    fn what_is_no_cutout_and_no_picture_of_light_says_so() {
+        let image = |content| {
+            let pixels = vec![9; 3];
+            ModelImage { width: 1, height: 1, pixels, content, ..ModelImage::default() }
+        };
+        let with = |spoil: &dyn Fn(&mut ModelPart)| {
+            let mut model = Model { images: vec![image(Content::Color), image(Content::Numbers)], ..wedge() };
+            spoil(&mut model.parts[0]);
+            model.validate(Vector3::new(1.0, 1.0, 1.0))
+        };
+        let on = |image| Some(ModelTexture { image, wrap: [Wrap::Repeat; 2] });
+        for cutoff in [0.0, 0.5, 1.0, MOST_CUTOFF] {
+            assert_eq!(with(&|part| part.transparency = Transparency::Cutout { cutoff }), Ok(()));
+        }
+        for cutoff in [f32::NAN, f32::INFINITY, -0.1, 2.1] {
+            let error = with(&|part| part.transparency = Transparency::Cutout { cutoff }).unwrap_err();
+            assert!(matches!(error, ModelError::Transparency { part: 0, .. }), "{error}");
+        }
+        let all =
+            Pictures { metal: on(1), emission: on(0), shade: on(1), bumps: on(1), ..Pictures::default() };
+        assert_eq!(with(&|part| part.pictures = all), Ok(()));
+        for pictures in [
+            Pictures { shade_strength: 1.5, ..all },
+            Pictures { shade_strength: f32::NAN, ..all },
+            Pictures { bump_scale: f32::INFINITY, ..all },
+            Pictures { bump_scale: f32::NAN, ..all },
+        ] {
+            let error = with(&|part| part.pictures = pictures).unwrap_err();
+            assert!(matches!(error, ModelError::Pictures { part: 0, .. }), "{error}");
+        }
+        for pictures in [Pictures { bumps: on(0), ..all }, Pictures { emission: on(1), ..all }] {
+            let error = with(&|part| part.pictures = pictures).unwrap_err();
+            assert!(matches!(error, ModelError::Content { part: 0, .. }), "{error}");
+        }
+        let error = with(&|part| part.pictures = Pictures { shade: on(2), ..all }).unwrap_err();
+        assert!(matches!(error, ModelError::Image { image: 2, count: 2, .. }), "{error}");
+        assert!(matches!(with(&|part| part.texture = on(1)), Err(ModelError::Content { .. })));
     }
 }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use simworld_core::action::Action;
-use simworld_core::asset::{Asset, Finish, Hull, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{
+    Asset, Finish, Hull, Model, ModelPart, ModelVertex, Paint, Pictures, Transparency,
+};
 use simworld_core::geometry::{Point3, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
@@ -144,6 +146,8 @@ fn model(corners: &[[f32; 3]]) -> (Model, Shape) {
         paint: Paint::Own,
         finish: Finish::default(),
         texture: None,
+        transparency: Transparency::Opaque,
+        pictures: Pictures::default(),
     };
     let model = Model {
         vertices: corners.iter().map(vertex).collect(),

@@ -29,6 +29,9 @@ const FALL: &str = include_str!("../shaders/fall.wgsl");
 const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
 const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
+const PICTURES: &str = include_str!("../shaders/pictures.wgsl");
+const STORE: &str = include_str!("../shaders/store.wgsl");
+const CUTOUTS: &str = include_str!("../shaders/cutouts.wgsl");
 const MODELS: &str = include_str!("../shaders/models.wgsl");
 const FORWARD_MODELS: &str = include_str!("../shaders/forward_models.wgsl");
 const CAST_MODELS: &str = include_str!("../shaders/cast_models.wgsl");
@@ -45,6 +48,11 @@ pub(crate) struct Pipelines {
     forward_layout: wgpu::PipelineLayout,
     /// The same with the pictures of models.
     model_layout: wgpu::PipelineLayout,
+    /// Of what is cut out, made when there is some: RGB by [`Features`], and everything else.
+    cut_picture: BTreeMap<Features, wgpu::RenderPipeline>,
+    cuts: Option<Cuts>,
+    /// The same pictures without shadows.
+    cut_layout: wgpu::PipelineLayout,
     smooth: bool,
     /// Depth and ids alone, where RGB is smoothed or not asked for.
     pub measures: wgpu::RenderPipeline,
@@ -58,6 +66,13 @@ pub(crate) struct Pipelines {
     pub scenery: wgpu::BindGroupLayout,
 }
 
+/// What is cut out of models is drawn with, beside its picture.
+pub(crate) struct Cuts {
+    pub measures: wgpu::RenderPipeline,
+    pub normals: wgpu::RenderPipeline,
+    pub shadow: wgpu::RenderPipeline,
+}
+
 bitflags! {
     /// What a picture needs beyond sun and sky; the bits of FEATURES in shaders/shading.wgsl.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,6 +82,8 @@ bitflags! {
         const SNOW = 4;
         /// Of rays alone: triangles of models have a pipeline of their own.
         const MODELS = 8;
+        /// Of rays alone, too: some of these are cut out.
+        const CUTS = 16;
     }
 }
 
@@ -113,9 +130,9 @@ impl Pipelines {
         };
         let full = layout(&[Some(&scenery), Some(shadows)]);
         let plain = layout(&[Some(&scenery)]);
-        let shading =
-            [COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT, MODELS];
-        let forward = module("forward", &[&shading[..], &[FORWARD, FORWARD_MODELS]].concat());
+        let shading = [COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT];
+        let models = [PICTURES, STORE, MODELS, FORWARD, FORWARD_MODELS];
+        let forward = module("forward", &[&shading[..], &models[..]].concat());
         let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
         let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, DROPS, PRECIPITATION]);
         let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
@@ -124,15 +141,20 @@ impl Pipelines {
         let smooth = smoothing == AntiAliasing::Msaa4;
         Self {
             picture: BTreeMap::new(),
-            measures: Recipe { gpu, module: &forward, layout: &full }.measures(),
-            normals: Recipe { gpu, module: &normals, layout: &plain }.normals(),
+            measures: Recipe { gpu, module: &forward, layout: &full }
+                .measures(["vertex_main", "fragment_measures"]),
+            normals: Recipe { gpu, module: &normals, layout: &plain }
+                .normals(["vertex_normals", "fragment_normals"]),
             forward,
             forward_layout: full,
             model_layout: layout(&[Some(&scenery), Some(shadows), Some(store)]),
+            cut_picture: BTreeMap::new(),
+            cuts: None,
+            cut_layout: layout(&[Some(&scenery), None, Some(store)]),
             smooth,
             precipitation: Recipe { gpu, module: &falling, layout: &plain }.precipitation(smooth),
             sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
-            shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow(),
+            shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow("vertex_shadow", None),
             scenery,
         }
     }
@@ -142,9 +164,41 @@ impl Pipelines {
         let picture = |pattern| {
             let is_model = pattern == Pattern::Model;
             let layout = if is_model { &self.model_layout } else { &self.forward_layout };
-            Recipe { gpu, module: &self.forward, layout }.picture(pattern, features, self.smooth)
+            Recipe { gpu, module: &self.forward, layout }.picture(pattern, features, self.smooth, false)
         };
         self.picture.entry(features).or_insert_with(|| Pattern::ALL.map(picture).into());
+    }
+
+    /// Makes what draws what is cut out of models, and with features pictures of it, the first time that one is wanted.
+    pub(crate) fn prepare_cuts(&mut self, gpu: &Gpu, features: Option<Features>) {
+        if self.cuts.is_none() {
+            let source = [COMMON, BINDINGS, OCTAHEDRAL, PICTURES, STORE, CUTOUTS].concat();
+            let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("cutouts"),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            });
+            let recipe = Recipe { gpu, module: &module, layout: &self.cut_layout };
+            self.cuts = Some(Cuts {
+                measures: recipe.measures(["vertex_cut", "fragment_cut_measures"]),
+                normals: recipe.normals(["vertex_cut", "fragment_cut_normals"]),
+                shadow: recipe.shadow("vertex_cut_shadow", Some("fragment_cut_shadow")),
+            });
+        }
+        let recipe = Recipe { gpu, module: &self.forward, layout: &self.model_layout };
+        if let Some(features) = features {
+            let picture = || recipe.picture(Pattern::Model, features, self.smooth, true);
+            self.cut_picture.entry(features).or_insert_with(picture);
+        }
+    }
+
+    /// What draws pictures of what is cut out, if it was [prepared](Self::prepare_cuts).
+    pub(crate) fn cut_picture(&self, features: Features) -> Option<&wgpu::RenderPipeline> {
+        self.cut_picture.get(&features)
+    }
+
+    /// What else draws it, if it was [prepared](Self::prepare_cuts).
+    pub(crate) const fn cuts(&self) -> Option<&Cuts> {
+        self.cuts.as_ref()
     }
 
     /// The pipeline of a pattern, if it was [prepared](Self::prepare).
@@ -155,8 +209,10 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    let shading = [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, MODELS];
-    [&shading[..], &[OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL]].concat().concat()
+    let shading = [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS];
+    [&shading[..], &[PICTURES, MODELS, OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL]]
+        .concat()
+        .concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]
@@ -182,7 +238,7 @@ fn depth_state(compare: wgpu::CompareFunction, bias: wgpu::DepthBiasState) -> wg
 }
 
 impl Recipe<'_> {
-    fn picture(&self, pattern: Pattern, features: Features, smooth: bool) -> wgpu::RenderPipeline {
+    fn picture(&self, pattern: Pattern, features: Features, smooth: bool, cut: bool) -> wgpu::RenderPipeline {
         let all = wgpu::ColorWrites::ALL;
         let targets = [target(COLOR, all), target(DEPTH, all), target(ID, all)];
         let (vertex, color, everything) = match pattern {
@@ -193,7 +249,11 @@ impl Recipe<'_> {
             label: "picture",
             vertex,
             fragment: Some(if smooth { color } else { everything }),
-            constants: &[("PATTERN", f64::from(pattern as u32)), ("FEATURES", f64::from(features.bits()))],
+            constants: &[
+                ("PATTERN", f64::from(pattern as u32)),
+                ("FEATURES", f64::from(features.bits())),
+                ("CUT", f64::from(u8::from(cut))),
+            ],
             targets: if smooth { &targets[..1] } else { &targets },
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
             samples: if smooth { SAMPLES } else { 1 },
@@ -201,12 +261,12 @@ impl Recipe<'_> {
         })
     }
 
-    fn measures(&self) -> wgpu::RenderPipeline {
+    fn measures(&self, [vertex, fragment]: [&str; 2]) -> wgpu::RenderPipeline {
         let all = wgpu::ColorWrites::ALL;
         self.build(&Variant {
             label: "measures",
-            vertex: "vertex_main",
-            fragment: Some("fragment_measures"),
+            vertex,
+            fragment: Some(fragment),
             constants: &[],
             targets: &[target(DEPTH, all), target(ID, all)],
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
@@ -215,11 +275,11 @@ impl Recipe<'_> {
         })
     }
 
-    fn normals(&self) -> wgpu::RenderPipeline {
+    fn normals(&self, [vertex, fragment]: [&str; 2]) -> wgpu::RenderPipeline {
         self.build(&Variant {
             label: "normals",
-            vertex: "vertex_normals",
-            fragment: Some("fragment_normals"),
+            vertex,
+            fragment: Some(fragment),
             constants: &[],
             targets: &[target(ID, wgpu::ColorWrites::ALL)],
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
@@ -261,12 +321,12 @@ impl Recipe<'_> {
         })
     }
 
-    fn shadow(&self) -> wgpu::RenderPipeline {
+    fn shadow(&self, vertex: &str, fragment: Option<&str>) -> wgpu::RenderPipeline {
         let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 1.5, clamp: 0.0 };
         self.build(&Variant {
             label: "shadow",
-            vertex: "vertex_shadow",
-            fragment: None,
+            vertex,
+            fragment,
             constants: &[],
             targets: &[],
             depth: depth_state(wgpu::CompareFunction::Less, bias),

@@ -21,7 +21,7 @@ pub(crate) struct Scenery {
     /// Those that are drawn, in their order.
     drawn: wgpu::Buffer,
     copies: Vec<Instance>,
-    /// The sky, the coats of models, and the grids of lamps.
+    /// The sky, and the grids of lamps.
     pub lights: wgpu::Buffer,
     group: wgpu::BindGroup,
     layout: wgpu::BindGroupLayout,
@@ -53,12 +53,12 @@ impl Scenery {
         }
     }
 
-    /// Sends the globals of the views, the sky with the coats of models and the lamps behind it, and what changed of the instances.
+    /// Sends the globals of the views, the sky with the lamps behind it, and what changed of the instances.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,
         globals: &[Globals],
-        lights: [&[[f32; 4]]; 3],
+        lights: [&[[f32; 4]]; 2],
         residents: &mut Residents,
     ) -> Result<(), RenderError> {
         let limits = gpu.device.limits();

@@ -1,10 +1,17 @@
 //! The store of pictures on the device: rows of texels in the layers of one texture, read one by one, so that pictures of any size and their smaller
-//! levels lie behind one another, and every backend blends them by the same arithmetic.
+//! levels lie behind one another, and every backend blends them by the same arithmetic; and the table that says what of it belongs to whom.
+//!
+//! Colours are read through a view that makes linear light of them, and numbers through one that leaves them as they are. The table is a texture too,
+//! since all storage buffers that every adapter has are taken.
 
 use super::device::Gpu;
 
 /// Texels in a row, and rows in a layer; as in shaders/models.wgsl.
 pub(crate) const ROW: u32 = 1024;
+
+/// What makes linear light of the texels, and what leaves them as they are.
+const COLORS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A texel takes so many bytes.
 const TEXEL: u32 = 4;
@@ -15,31 +22,38 @@ pub(crate) const MOST_LAYERS: u32 = 256;
 /// Bytes of a layer.
 pub(crate) const LAYER: u64 = ROW as u64 * ROW as u64 * TEXEL as u64;
 
-/// The texture, and what it is bound by.
+/// The textures, and what they are bound by.
 pub(crate) struct Texels {
     layout: wgpu::BindGroupLayout,
     texture: wgpu::Texture,
+    table: wgpu::Texture,
     group: wgpu::BindGroup,
 }
 
 impl Texels {
     pub(crate) fn new(gpu: &Gpu) -> Self {
+        let entry = |binding, view_dimension| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                view_dimension,
+                multisampled: false,
+            },
+            count: None,
+        };
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("pictures"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: wgpu::TextureViewDimension::D2Array,
-                    multisampled: false,
-                },
-                count: None,
-            }],
+            entries: &[
+                entry(0, wgpu::TextureViewDimension::D2Array),
+                entry(1, wgpu::TextureViewDimension::D2Array),
+                entry(2, wgpu::TextureViewDimension::D2),
+            ],
         });
-        // Scenes without pictures have one that nobody reads.
-        let (texture, group) = made(gpu, &layout, [1, 1, 1]);
-        Self { layout, texture, group }
+        // Scenes without pictures have those that nobody reads.
+        let (texture, table) = (stored(gpu, [1, 1, 1]), tabled(gpu, 1));
+        let group = bound(gpu, &layout, &texture, &table);
+        Self { layout, texture, table, group }
     }
 
     pub(crate) const fn layout(&self) -> &wgpu::BindGroupLayout {
@@ -59,7 +73,26 @@ impl Texels {
     /// Makes room for so many rows in place of all that is there.
     pub(crate) fn replace(&mut self, gpu: &Gpu, rows: u32) {
         let layers = rows.div_ceil(ROW).next_power_of_two().min(MOST_LAYERS);
-        (self.texture, self.group) = made(gpu, &self.layout, [ROW, ROW, layers]);
+        self.texture = stored(gpu, [ROW, ROW, layers]);
+        self.group = bound(gpu, &self.layout, &self.texture, &self.table);
+    }
+
+    /// Writes the table in place of what it was.
+    pub(crate) fn tell(&mut self, gpu: &Gpu, table: &[[f32; 4]]) {
+        let rows = (table.len() as u32).div_ceil(ROW);
+        if rows > self.table.height() {
+            self.table = tabled(gpu, rows.next_power_of_two());
+            self.group = bound(gpu, &self.layout, &self.texture, &self.table);
+        }
+        let mut whole = table.to_vec();
+        whole.resize((rows * ROW) as usize, [0.0; 4]);
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(ROW * size_of::<[f32; 4]>() as u32),
+            rows_per_image: Some(rows),
+        };
+        let size = wgpu::Extent3d { width: ROW, height: rows, depth_or_array_layers: 1 };
+        gpu.queue.write_texture(self.table.as_image_copy(), bytemuck::cast_slice(&whole), layout, size);
     }
 
     /// Writes whole rows, from one on.
@@ -86,29 +119,56 @@ impl Texels {
     }
 }
 
-fn made(
+fn texture(
     gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
     [width, height, layers]: [u32; 3],
-) -> (wgpu::Texture, wgpu::BindGroup) {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+    format: wgpu::TextureFormat,
+    views: &[wgpu::TextureFormat],
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("pictures"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: layers },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    });
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        view_formats: views,
+    })
+}
+
+fn stored(gpu: &Gpu, size: [u32; 3]) -> wgpu::Texture {
+    texture(gpu, size, COLORS, &[NUMBERS])
+}
+
+fn tabled(gpu: &Gpu, rows: u32) -> wgpu::Texture {
+    texture(gpu, [ROW, rows, 1], wgpu::TextureFormat::Rgba32Float, &[])
+}
+
+fn bound(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    texture: &wgpu::Texture,
+    table: &wgpu::Texture,
+) -> wgpu::BindGroup {
+    let seen = |format| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            format: Some(format),
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        })
+    };
+    let (colors, numbers) = (seen(COLORS), seen(NUMBERS));
+    let table = table.create_view(&wgpu::TextureViewDescriptor::default());
+    let views = [&colors, &numbers, &table];
+    let entry = |(binding, view)| wgpu::BindGroupEntry {
+        binding,
+        resource: wgpu::BindingResource::TextureView(view),
+    };
+    let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..).zip(views).map(entry).collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("pictures"),
         layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) }],
-    });
-    (texture, group)
+        entries: &entries,
+    })
 }

@@ -64,6 +64,15 @@ impl Step {
     }
 }
 
+/// What the rays of a batch are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Rays {
+    /// Whether they are those of a table.
+    pub by_table: bool,
+    /// Whether they may meet what is cut out.
+    pub cuts: bool,
+}
+
 /// The twin of `View` in rays.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -83,10 +92,9 @@ pub(crate) struct Raycast {
     /// Numbers whose instances changed since the trees last followed.
     noted: Vec<u32>,
     module: wgpu::ShaderModule,
-    /// By step, and whether the rays are those of a table.
-    pipelines: BTreeMap<(Step, bool), wgpu::ComputePipeline>,
+    pipelines: BTreeMap<(Step, Rays), wgpu::ComputePipeline>,
     /// Those of the batch at hand.
-    prepared: Vec<(Step, bool)>,
+    prepared: Vec<(Step, Rays)>,
     /// The table of rays of the batch at hand: directions of length one, optical frame.
     rays: wgpu::Buffer,
     views: wgpu::Buffer,
@@ -95,7 +103,7 @@ pub(crate) struct Raycast {
     pieces: wgpu::Buffer,
     /// Pieces of four words that are on the device.
     sent: usize,
-    /// The pictures of models, which paint alone reads, and their layout.
+    /// The pictures of models, and their layout.
     store: wgpu::BindGroup,
     store_layout: wgpu::BindGroupLayout,
 }
@@ -239,7 +247,7 @@ impl Raycast {
     }
 
     /// Makes ready what a batch is cast with.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], falling: &[Falling], by_table: bool) {
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], falling: &[Falling], rays: Rays) {
         let color = casts.iter().copied().find(|cast| matches!(cast, Cast::Color(_)));
         let normals = casts.contains(&Cast::Normals).then_some(Step::Paint(Cast::Normals));
         // Colour is painted over what normals are reckoned from.
@@ -247,7 +255,7 @@ impl Raycast {
         let falls = color.is_some() && falling.iter().any(|one| one.count > 0);
         let fall = falls.then_some(Step::Fall);
         let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last), fall];
-        self.prepared = steps.into_iter().flatten().map(|step| (step, by_table)).collect();
+        self.prepared = steps.into_iter().flatten().map(|step| (step, rays)).collect();
         for key in &self.prepared {
             let (module, store) = (&self.module, &self.store_layout);
             self.pipelines.entry(*key).or_insert_with(|| pipeline(gpu, module, store, *key));
@@ -283,9 +291,7 @@ impl Raycast {
             let mut pass = encoder.begin_compute_pass(&timing.pass(key.0.binds().0));
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
-            if matches!(key.0, Step::Paint(_)) {
-                pass.set_bind_group(1, &self.store, &[]);
-            }
+            pass.set_bind_group(1, &self.store, &[]);
             let tile = if matches!(key.0, Step::Paint(_) | Step::Fall) { PAINTED } else { TILE };
             pass.dispatch_workgroups(width.div_ceil(tile), height.div_ceil(tile), layout.spans.len() as u32);
         }
@@ -296,7 +302,7 @@ fn pipeline(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
     store: &wgpu::BindGroupLayout,
-    (step, by_table): (Step, bool),
+    (step, rays): (Step, Rays),
 ) -> wgpu::ComputePipeline {
     let (entry_point, bindings) = step.binds();
     let entries = bindings.map(|binding| wgpu::BindGroupLayoutEntry {
@@ -313,19 +319,22 @@ fn pipeline(
         label: Some("raycast"),
         entries: &entries,
     });
-    let (groups, is_paint) = ([Some(&layout), Some(store)], matches!(step, Step::Paint(_)));
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("raycast"),
-        bind_group_layouts: if is_paint { &groups } else { &groups[..1] },
+        bind_group_layouts: &[Some(&layout), Some(store)],
         immediate_size: 0,
     });
     let flag = |is: bool| f64::from(u8::from(is));
-    let mut constants = vec![("TABLE", flag(by_table))];
+    let mut constants = vec![("TABLE", flag(rays.by_table))];
+    let features = match step {
+        Step::Paint(Cast::Color(features)) => features,
+        Step::Find | Step::Light if rays.cuts => Features::CUTS,
+        _ => Features::empty(),
+    };
+    constants.push(("FEATURES", f64::from(features.bits())));
     if let Step::Paint(cast) = step {
-        let bits = if let Cast::Color(features) = cast { features.bits() } else { 0 };
         constants.push(("SHADED", flag(matches!(cast, Cast::Color(_)))));
         constants.push(("FACING", flag(cast == Cast::Normals)));
-        constants.push(("FEATURES", f64::from(bits)));
     }
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("raycast"),

@@ -21,6 +21,8 @@ const MODEL_ASIDE: u32 = 5;
 const IS_LEAF: u32 = 1 << 31;
 /// From this bit on, a triangle's word of where its normals are has the pattern of its mesh.
 const PATTERN: u32 = 28;
+/// Says in that word that the part of the triangle is cut out; as in rays.wgsl.
+const IS_CUT: u32 = 1 << 27;
 
 /// A mesh among the pieces.
 #[derive(Clone, Copy, Debug)]
@@ -34,19 +36,23 @@ pub(super) struct Shape {
 /// The triangles of a mesh.
 pub(super) struct Soup<'a> {
     corners: Vec<[&'a Vertex; 3]>,
-    /// By corner, the place on a picture and the part, of models; none of other meshes.
-    spots: Vec<[[f32; 3]; 3]>,
+    /// By corner, the place on pictures, the part and its alpha, of models; none of other meshes.
+    spots: Vec<[[f32; 4]; 3]>,
+    /// From this triangle on they are those of parts that are cut out.
+    cut_from: usize,
     pattern: Pattern,
 }
 
 impl<'a> Soup<'a> {
     pub(super) fn new(vertices: &'a [Vertex], indices: &[u32], pattern: Pattern) -> Self {
-        Self { corners: by_corner(indices, |index| &vertices[index]), spots: Vec::new(), pattern }
+        let corners = by_corner(indices, |index| &vertices[index]);
+        Self { cut_from: corners.len(), corners, spots: Vec::new(), pattern }
     }
 
     pub(super) fn of_model(mesh: &'a ModelMesh) -> Self {
         Self {
             spots: by_corner(&mesh.indices, |index| mesh.spots[index]),
+            cut_from: mesh.cut_from / 3,
             ..Self::new(&mesh.vertices, &mesh.indices, Pattern::Model)
         }
     }
@@ -64,6 +70,19 @@ impl<'a> Soup<'a> {
         Tree::build(&(0..count).map(nominal).collect::<Vec<_>>(), leaf, LEVELS)
     }
 
+    /// Adds what stands apart of a triangle.
+    fn add_aside(&self, pieces: &mut Vec<[u32; 4]>, number: usize) {
+        let spots = self.spots.get(number);
+        for (corner, vertex) in self.corners[number].iter().enumerate() {
+            let [x, y, z] = vertex.normal;
+            let alpha = spots.map_or(0.0, |spots| spots[corner][3]);
+            pieces.push([x, y, z, alpha].map(f32::to_bits));
+        }
+        if let Some([[a, b, ..], [c, d, ..], [e, f, part, _]]) = spots {
+            pieces.extend([[a, b, c, d], [e, f, part, &0.0]].map(|four| four.map(|word| word.to_bits())));
+        }
+    }
+
     /// The boxes of its triangles: of their anchors, and of their offsets.
     fn boxes(&self) -> [Vec<Box3>; 2] {
         let around = |of: fn(&Vertex) -> [f32; 3]| {
@@ -79,18 +98,12 @@ impl<'a> Soup<'a> {
         let aside = if self.spots.is_empty() { ASIDE } else { MODEL_ASIDE };
         let pattern = (self.pattern as u32) << PATTERN;
         for (position, number) in (0..).zip(&tree.order) {
-            add_triangle(
-                &mut pieces,
-                &self.corners[*number as usize],
-                pattern | (normals + aside * position),
-            );
+            let cut = if (*number as usize) < self.cut_from { 0 } else { IS_CUT };
+            let last = pattern | cut | (normals + aside * position);
+            add_triangle(&mut pieces, &self.corners[*number as usize], last);
         }
         for number in &tree.order {
-            let three = self.corners[*number as usize].map(|vertex| vertex.normal.map(f32::to_bits));
-            pieces.extend(three.map(|[x, y, z]| [x, y, z, 0]));
-            if let Some([[a, b, _], [c, d, _], [e, f, part]]) = self.spots.get(*number as usize) {
-                pieces.extend([[a, b, c, d], [e, f, part, &0.0]].map(|four| four.map(|word| word.to_bits())));
-            }
+            self.add_aside(&mut pieces, *number as usize);
         }
         let root = first + pieces.len() as u32;
         let [anchors, offsets] = self.boxes().map(|boxes| bound(tree, &in_order(tree, &boxes)));

@@ -30,11 +30,18 @@ fn next_anywhere(height: ptr<function, u32>, base: u32) -> u32 {
     return (top >> 4u) << 2u | firstTrailingBit(top);
 }
 
-// Whether a ray meets a triangle of a leaf.
-fn is_in_leaf(ray: Ray, code: u32, scale: vec3f, unit: f32, start: f32) -> bool {
+// Whether a ray meets a triangle of a leaf; where its origin is from the eye, and where it goes in the world, decides how blurred pictures are seen.
+fn is_in_leaf(ray: Ray, code: u32, number: u32, scale: vec3f, unit: f32, start: f32, origin: vec3f, direction: vec3f) -> bool {
     let run = triangles_of(code);
     for (var k = 0u; k < run.x; k++) {
-        if (meet_triangle(ray, triangle_at(run.y + k * 5u, scale, unit)) >= start) {
+        let at = run.y + k * 5u;
+        let one = triangle_at(at, scale, unit);
+        let t = meet_triangle(ray, one);
+        if (t >= start) {
+            if ((FEATURES & WITH_CUTS) != 0u && (pieces[at + 4u].w & IS_CUT) != 0u
+                && shines_through(ray, t, one, at, number, length(origin + direction * t))) {
+                continue;
+            }
             return true;
         }
     }
@@ -53,7 +60,7 @@ fn is_in_mesh(number: u32, root: u32, origin: vec3f, direction: vec3f, start: f3
             let entries = enter_four(sides_in_mesh(ray, scale, unit, code), start * 0.999, FAR_AWAY);
             code = descend_anywhere(code, entries, pieces[code], &height);
         } else {
-            if (is_in_leaf(ray, code, scale, unit, start)) {
+            if (is_in_leaf(ray, code, number, scale, unit, start, origin, direction)) {
                 return true;
             }
             code = NOTHING;

@@ -80,7 +80,7 @@ fn met_at(number: u32, triangle: u32, relative: vec3f) -> Met {
     let v = saturate(share.y);
     let u = min(saturate(share.x), 1.0 - v);
     let last = pieces[triangle + 4u];
-    let at = last.w & 0x0fffffffu;
+    let at = last.w & ADDRESS;
     var normals = mat3x3f(bitcast<vec3f>(pieces[at].xyz), bitcast<vec3f>(pieces[at + 1u].xyz), bitcast<vec3f>(pieces[at + 2u].xyz));
     if (is_model(last.z)) {
         normals = mat3x3f(normalize(normals[0] / scale), normalize(normals[1] / scale), normalize(normals[2] / scale));
@@ -95,17 +95,19 @@ fn hit_of(met: Met, number: u32, triangle: u32, direction: vec3f) -> Hit {
     let ray = select(met.relative / depth, direction, parallel);
     let steps = steps_of(ray, select(depth, 1.0, parallel), met.flat_normal);
     var finish: Finish;
-    var glow = vec3f(0.0);
+    var glow = vec4f(0.0, 0.0, 0.0, 1.0);
+    var bumped = met.normal;
     if ((FEATURES & WITH_MODELS) != 0u && is_model(met.material)) {
-        let spot = model_spot(met, number, triangle, steps);
-        finish = spot.finish;
-        glow = spot.glow;
+        let touched = touched(met, number, triangle, steps);
+        finish = touched.spot.finish;
+        glow = touched.spot.glow;
+        bumped = touched.normal;
     } else {
         finish = finish_of(met.material, i.color, i.second, i.scale.w);
     }
     let extra = vec2f(i.color.w, i.second.w);
     let footprint = footprint_of(steps, i.rotation);
-    return Hit(met.relative, met.normal, met.body, met.normals[0], finish, i.scale, extra, f32(met.material != 0u), met.pattern, footprint, glow);
+    return Hit(met.relative, met.normal, met.body, met.normals[0], finish, i.scale, extra, f32(met.material != 0u), met.pattern, footprint, glow, bumped);
 }
 
 fn encoded(color: vec3f) -> u32 {
@@ -121,6 +123,9 @@ fn find(@builtin(global_invocation_id) at: vec3u) {
         return;
     }
     look(at.z);
+    if ((FEATURES & WITH_CUTS) != 0u) {
+        globals = views[at.z].globals;
+    }
     let sight = sight_of(at.xy);
     let found = trace(sight.origin, sight.direction, views[view].eye.w);
     // Parallel rays end at the far plane, as clip space does there.

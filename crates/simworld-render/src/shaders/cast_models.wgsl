@@ -1,32 +1,85 @@
-// Models of assets by rays: where on its picture a triangle was met, and what a pixel covers of that.
+// Models of assets by rays: where on its pictures a triangle was met, and what a pixel covers of that.
 @group(1) @binding(0) var store: texture_2d_array<f32>;
+@group(1) @binding(1) var numbers: texture_2d_array<f32>;
+@group(1) @binding(2) var coats: texture_2d<f32>;
 
-// A part where a ray met its triangle.
-struct ModelSpot {
-    finish: Finish,
-    glow: vec3f,
+// Where a triangle lies on the pictures of its part: its first corner, and the ways along two of its sides.
+struct Chart {
+    corner: vec2f,
+    sides: mat2x2f,
+    coat: u32,
+    // Of the corners.
+    alpha: vec3f,
 }
 
-fn model_spot(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> ModelSpot {
-    let i = instances[number];
-    let one = triangle_at(triangle, i.scale.xyz, i.place.w);
-    let plane = cross(one.ab, one.ac);
-    let square = dot(plane, plane);
-    let at = pieces[triangle + 4u].w & 0x0fffffffu;
+fn chart_of(triangle: u32, number: u32) -> Chart {
+    let at = pieces[triangle + 4u].w & ADDRESS;
     let p = bitcast<vec4f>(pieces[at + 3u]);
     let r = bitcast<vec4f>(pieces[at + 4u]);
-    let sides = mat2x2f(p.zw - p.xy, r.xy - p.xy);
-    let inverse = vec4f(-i.rotation.xyz, i.rotation.w);
-    // Shares of both sides, of a way in the plane of the triangle.
-    let apart = met.body - one.a;
-    let across = rotate(inverse, steps[0]);
-    let down = rotate(inverse, steps[1]);
-    let share = vec2f(dot(cross(apart, one.ac), plane), dot(cross(one.ab, apart), plane)) / square;
-    let a = vec2f(dot(cross(across, one.ac), plane), dot(cross(one.ab, across), plane)) / square;
-    let d = vec2f(dot(cross(down, one.ac), plane), dot(cross(one.ab, down), plane)) / square;
+    let alpha = bitcast<vec3f>(vec3u(pieces[at].w, pieces[at + 1u].w, pieces[at + 2u].w));
+    return Chart(p.xy, mat2x2f(p.zw - p.xy, r.xy - p.xy), coat_place(instances[number].second.x, r.z), alpha);
+}
+
+// Shares of both sides of a triangle that a way in its plane is.
+fn shares_of(one: Triangle, way: vec3f) -> vec2f {
+    let plane = cross(one.ab, one.ac);
+    return vec2f(dot(cross(way, one.ac), plane), dot(cross(one.ab, way), plane)) / dot(plane, plane);
+}
+
+fn within_triangle(share: vec2f) -> vec2f {
     let v = saturate(share.y);
-    let place = p.xy + sides * vec2f(min(saturate(share.x), 1.0 - v), v);
-    let coat = coat_at(coat_place(i.second.x, r.z));
-    let tint = model_tint(met.material, i.color.rgb);
-    return ModelSpot(model_finish(coat, tint, place, sides * a, sides * d), model_glow(coat));
+    return vec2f(min(saturate(share.x), 1.0 - v), v);
+}
+
+fn alpha_on(chart: Chart, share: vec2f) -> f32 {
+    return dot(chart.alpha, vec3f(1.0 - share.x - share.y, share));
+}
+
+// The part where a ray met its triangle, and its normal there.
+struct Touched {
+    spot: Spot,
+    normal: vec3f,
+}
+
+fn touched(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Touched {
+    let i = instances[number];
+    let one = triangle_at(triangle, i.scale.xyz, i.place.w);
+    let chart = chart_of(triangle, number);
+    let inverse = vec4f(-i.rotation.xyz, i.rotation.w);
+    let across = chart.sides * shares_of(one, rotate(inverse, steps[0]));
+    let down = chart.sides * shares_of(one, rotate(inverse, steps[1]));
+    let place = chart.corner + chart.sides * within_triangle(shares_of(one, met.body - one.a));
+    let spot = model_spot(chart.coat, model_tint(met.material, i.color.rgb), place, across, down);
+    let ways = mat2x3f(rotate(i.rotation, one.ab), rotate(i.rotation, one.ac));
+    return Touched(spot, tilted(met.normal, spot.bump, ways, chart.sides));
+}
+
+// Whether a view ray goes through a hole where it meets a triangle; the ray is in the body frame. A ray of a table is no pixel, and sees the finest level.
+fn looks_through(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32) -> bool {
+    let chart = chart_of(triangle, number);
+    let picture = picture_at(chart.coat + COLOR_PICTURE);
+    var level = 0.0;
+    if (!TABLE && picture.row >= 0.0) {
+        let rotation = instances[number].rotation;
+        let inverse = vec4f(-rotation.xyz, rotation.w);
+        let normal = rotate(rotation, normalize(cross(one.ab, one.ac)));
+        let steps = steps_of(rotate(rotation, ray.direction), select(t, 1.0, parallel), normal);
+        let across = chart.sides * shares_of(one, rotate(inverse, steps[0]));
+        let down = chart.sides * shares_of(one, rotate(inverse, steps[1]));
+        level = level_of_picture(picture, across, down);
+    }
+    let share = within_triangle(shares_of(one, ray.origin + ray.direction * t - one.a));
+    return is_hole(chart.coat, alpha_on(chart, share), chart.corner + chart.sides * share, level);
+}
+
+// Whether the sun shines through a hole where its ray meets a triangle so far from the eye: as blurred as a pixel is wide there.
+fn shines_through(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32, distance: f32) -> bool {
+    let chart = chart_of(triangle, number);
+    let picture = picture_at(chart.coat + COLOR_PICTURE);
+    let texels = abs(determinant(chart.sides)) * f32(picture.size.x * picture.size.y);
+    let wide = select(distance, 1.0, parallel) / limits.z;
+    let covered = wide * wide * texels / max(length(cross(one.ab, one.ac)), 1e-20);
+    let level = clamp(0.5 * log2(max(covered, 1e-12)), 0.0, f32(picture.levels - 1u));
+    let share = within_triangle(shares_of(one, ray.origin + ray.direction * t - one.a));
+    return is_hole(chart.coat, alpha_on(chart, share), chart.corner + chart.sides * share, level);
 }

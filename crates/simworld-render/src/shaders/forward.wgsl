@@ -47,7 +47,7 @@ fn vertex_main(corner: Corner) -> Varyings {
 fn hit_of(in: Varyings) -> Hit {
     let finish = Finish(in.albedo, in.finish.x, in.finish.y, in.finish.z, in.finish.w);
     let normal = normalize(in.normal);
-    return Hit(in.relative, normal, in.body, in.body_normal, finish, in.size, in.extra, in.paint, PATTERN, fwidth(in.body), vec3f(0.0));
+    return Hit(in.relative, normal, in.body, in.body_normal, finish, in.size, in.extra, in.paint, PATTERN, fwidth(in.body), vec4f(0.0, 0.0, 0.0, 1.0), normal);
 }
 
 fn planar_depth(in: Varyings) -> f32 {

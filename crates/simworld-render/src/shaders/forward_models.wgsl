@@ -1,5 +1,7 @@
-// Models of assets by triangles: as forward.wgsl, with a place on a picture.
-@group(2) @binding(0) var store: texture_2d_array<f32>;
+// Models of assets by triangles: as forward.wgsl, with a place on pictures.
+
+// Whether what is drawn is cut out.
+override CUT: bool = false;
 
 struct ModelVaryings {
     @builtin(position) position: vec4f,
@@ -15,6 +17,7 @@ struct ModelVaryings {
     @location(7) @interpolate(flat) extra: vec2f,
     @location(8) @interpolate(flat) coat: u32,
     @location(9) @interpolate(flat) id: u32,
+    @location(10) alpha: f32,
 }
 
 @vertex
@@ -27,13 +30,14 @@ fn vertex_model(corner: Corner) -> ModelVaryings {
     out.relative = relative;
     out.normal = rotate(in.rotation, normal);
     out.body = body_point(in);
-    // The unit of models is zero: what are offsets elsewhere is the place on the picture, and the part.
-    out.place = in.offset.xy;
+    let laid = laid_at(in.offset);
+    out.place = laid.place;
+    out.alpha = laid.alpha;
     out.body_normal = normal;
     out.tint = model_tint(in.material, in.color.rgb);
     out.size = in.scale;
     out.extra = vec2f(in.color.w, in.second.w);
-    out.coat = coat_place(in.second.x, in.offset.z);
+    out.coat = coat_place(in.second.x, laid.part);
     out.id = in.who;
     return out;
 }
@@ -42,9 +46,14 @@ fn model_color(in: ModelVaryings) -> vec4f {
     let across = dpdx(in.place);
     let down = dpdy(in.place);
     let footprint = fwidth(in.body);
-    let coat = coat_at(in.coat);
-    let finish = model_finish(coat, in.tint, in.place, across, down);
-    let hit = Hit(in.relative, normalize(in.normal), in.body, in.body_normal, finish, in.size, in.extra, 1.0, PATTERN, footprint, model_glow(coat));
+    let ways = mat2x3f(dpdx(in.relative), dpdy(in.relative));
+    if (CUT && falls_away(in.coat, in.alpha, in.place, across, down)) {
+        discard;
+    }
+    let spot = model_spot(in.coat, in.tint, in.place, across, down);
+    let normal = normalize(in.normal);
+    let bumped = tilted(normal, spot.bump, ways, mat2x2f(across, down));
+    let hit = Hit(in.relative, normal, in.body, in.body_normal, spot.finish, in.size, in.extra, 1.0, PATTERN, footprint, spot.glow, bumped);
     return vec4f(shade(hit), 1.0);
 }
 

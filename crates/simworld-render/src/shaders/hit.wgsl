@@ -19,8 +19,10 @@ struct Hit {
     pattern: u32,
     // How far each body coordinate goes from a pixel to the next: steps across and down together, m.
     footprint: vec3f,
-    // Light of its own, beside that of its finish.
-    glow: vec3f,
+    // Light of its own, beside that of its finish; w: the share of the sky's light that comes there.
+    glow: vec4f,
+    // The normal as bumps tilt it.
+    bumped: vec3f,
 }
 
 // How far a point on a plane goes from a pixel to the next, across and down, world axes, for backends without derivatives: as the view ray moves by

@@ -1,39 +1,4 @@
-// Models of assets: how their parts take light, and the pictures on them. Both backends look up the same texels and reckon alike; what a pixel
-// covers each of them brings along. The twin of coats.rs.
-
-// First entry of the table in `lights`, behind the sky.
-const COATS: u32 = 144u;
-// Texels in a row of the store, rows in a layer.
-const ROW: u32 = 1024u;
-
-// How a part takes light.
-struct Coat {
-    roughness: f32,
-    metallic: f32,
-    // First row of its picture; below zero without one.
-    row: f32,
-    // What lies beyond its sides, and beyond its top and bottom: 0 it again, 1 mirrored, 2 its edge.
-    wrap: vec2u,
-    emission: vec3f,
-    // Texels each way, and how many levels there are, each of half the size.
-    size: vec2u,
-    levels: u32,
-}
-
-// Entries of a part.
-const ENTRIES: u32 = 3u;
-
-// Where the coat of a part of an asset's model stands.
-fn coat_place(asset: f32, part: f32) -> u32 {
-    return COATS + u32(lights[COATS + u32(asset)].x) + ENTRIES * u32(part);
-}
-
-fn coat_at(at: u32) -> Coat {
-    let a = lights[at];
-    let b = lights[at + 1u];
-    let c = lights[at + 2u];
-    return Coat(a.x, a.y, a.z, vec2u(u32(a.w) & 3u, u32(a.w) >> 2u), b.xyz, vec2u(c.xy), u32(c.z));
-}
+// Models of assets: how their parts take light, place by place.
 
 // The colour of a vertex: square roots of 10 bits a channel; times the colour of the entity where its part has that.
 fn model_tint(material: u32, color: vec3f) -> vec3f {
@@ -41,74 +6,62 @@ fn model_tint(material: u32, color: vec3f) -> vec3f {
     return roots * roots * select(vec3f(1.0), color, (material & 0x40000000u) != 0u);
 }
 
-// Linear light: the format of the store says that it is sRGB.
-fn texel_at(first: u32, size: vec2u, at: vec2i) -> vec3f {
-    let index = first + u32(at.y) * size.x + u32(at.x);
-    return textureLoad(store, vec2u(index % ROW, (index / ROW) % ROW), index / (ROW * ROW), 0).rgb;
+// What a part is at a place on its pictures.
+struct Spot {
+    finish: Finish,
+    // Its own light, which is seen by day as little as that of a lamp's glass; w: the share of the sky's light that comes there.
+    glow: vec4f,
+    // Its normal in the frame of the pictures: to the right, to the top, and out of the surface; zero without a picture of it.
+    bump: vec3f,
 }
 
-// A coordinate brought into [0, 1].
-fn folded(place: f32, wrap: u32) -> f32 {
-    if (wrap == 2u) {
-        return saturate(place);
+// Pictures of a part beside that of its colour, by the bits that say which there are; as many entries behind METAL_PICTURE.
+const METAL: u32 = 0u;
+const EMISSION: u32 = 1u;
+const SHADE: u32 = 2u;
+const BUMPS: u32 = 3u;
+
+fn model_spot(coat: u32, tint: vec3f, place: vec2f, across: vec2f, down: vec2f) -> Spot {
+    let first = coat_entry(coat);
+    let light = coat_entry(coat + 1u);
+    var spot = Spot(Finish(tint, 0.0, 0.0, first.x, first.y), vec4f(light.rgb, 1.0), vec3f(0.0));
+    let picture = picture_at(coat + COLOR_PICTURE);
+    if (picture.row >= 0.0) {
+        spot.finish.albedo *= pictured(true, picture, place, level_of_picture(picture, across, down)).rgb;
     }
-    if (wrap == 1u) {
-        return 1.0 - abs(1.0 - (place - 2.0 * floor(place * 0.5)));
+    // A loop, which costs nothing on a CPU where it never runs: most parts have no such pictures.
+    for (var left = u32(first.z); left != 0u; left &= left - 1u) {
+        let kind = firstTrailingBit(left);
+        let more = picture_at(coat + METAL_PICTURE + kind);
+        let seen = pictured(kind == EMISSION, more, place, level_of_picture(more, across, down)).rgb;
+        let scale = coat_entry(coat + SCALES).xy;
+        switch kind {
+            case METAL: {
+                spot.finish.roughness *= seen.g;
+                spot.finish.metallic *= seen.b;
+            }
+            case EMISSION: { spot.glow = vec4f(spot.glow.rgb * seen, spot.glow.w); }
+            case SHADE: { spot.glow.w = 1.0 + scale.x * (seen.r - 1.0); }
+            default: { spot.bump = (2.0 * seen - 1.0) * vec3f(scale.y, scale.y, 1.0); }
+        }
     }
-    return place - floor(place);
+    spot.glow = vec4f(spot.glow.rgb * (0.15 + 1.6 * globals.sun_direction.w), spot.glow.w);
+    return spot;
 }
 
-// The texel of a coordinate that may be one beyond an edge.
-fn neighbour(at: i32, count: i32, wrap: u32) -> i32 {
-    return clamp(select(at, (at + count) % count, wrap == 0u), 0, count - 1);
-}
-
-// Between the four texels around a place.
-fn blended(first: u32, size: vec2u, place: vec2f, wrap: vec2u) -> vec3f {
-    let at = place * vec2f(size) - 0.5;
-    let low = floor(at);
-    let part = at - low;
-    let count = vec2i(size);
-    let x = vec2i(neighbour(i32(low.x), count.x, wrap.x), neighbour(i32(low.x) + 1, count.x, wrap.x));
-    let y = vec2i(neighbour(i32(low.y), count.y, wrap.y), neighbour(i32(low.y) + 1, count.y, wrap.y));
-    let above = mix(texel_at(first, size, vec2i(x.x, y.x)), texel_at(first, size, vec2i(x.y, y.x)), part.x);
-    let below = mix(texel_at(first, size, vec2i(x.x, y.y)), texel_at(first, size, vec2i(x.y, y.y)), part.x);
-    return mix(above, below, part.y);
-}
-
-// The picture of a coat at a place, as blurred as a pixel is wide there: from pixel to pixel the place goes by `across` and `down`.
-fn pictured(coat: Coat, place: vec2f, across: vec2f, down: vec2f) -> vec3f {
-    let a = across * vec2f(coat.size);
-    let b = down * vec2f(coat.size);
-    let most = f32(coat.levels - 1u);
-    let level = clamp(0.5 * log2(max(max(dot(a, a), dot(b, b)), 1e-12)), 0.0, most);
-    let fine = min(u32(level), coat.levels - 1u);
-    var first = u32(coat.row) * ROW;
-    var size = coat.size;
-    for (var k = 0u; k < fine; k++) {
-        first += size.x * size.y;
-        size = max(size / 2u, vec2u(1u));
-    }
-    let within = vec2f(folded(place.x, coat.wrap.x), folded(place.y, coat.wrap.y));
-    let color = blended(first, size, within, coat.wrap);
-    let rest = level - f32(fine);
-    if (rest <= 0.0 || fine + 1u >= coat.levels) {
-        return color;
-    }
-    let coarse = blended(first + size.x * size.y, max(size / 2u, vec2u(1u)), within, coat.wrap);
-    return mix(color, coarse, rest);
-}
-
-// What a part is made of at a place on its picture.
-fn model_finish(coat: Coat, tint: vec3f, place: vec2f, across: vec2f, down: vec2f) -> Finish {
-    var albedo = tint;
-    if (coat.row >= 0.0) {
-        albedo *= pictured(coat, place, across, down);
-    }
-    return Finish(albedo, 0.0, 0.0, coat.roughness, coat.metallic);
-}
-
-// Its own light, which is seen by day as little as that of a lamp's glass.
-fn model_glow(coat: Coat) -> vec3f {
-    return coat.emission * (0.15 + 1.6 * globals.sun_direction.w);
+// A normal as bumps tilt it, of a surface on which two ways of so many metres are such ways on its pictures, downwards as these count. The frame is
+// that of the surface there, and the first axis of it is to the right of the pictures, as glTF has it.
+fn tilted(normal: vec3f, bump: vec3f, ways: mat2x3f, steps: mat2x2f) -> vec3f {
+    let turn = sign(determinant(steps));
+    let right = (ways[0] * steps[1].y - ways[1] * steps[0].y) * turn;
+    let below = (ways[1] * steps[0].x - ways[0] * steps[1].x) * turn;
+    let along = right - normal * dot(normal, right);
+    let square = dot(along, along);
+    let tangent = along * inverseSqrt(max(square, 1e-36));
+    let aside = cross(normal, tangent);
+    let up = aside * select(-1.0, 1.0, dot(aside, below) < 0.0);
+    let leaning = tangent * bump.x + up * bump.y + normal * bump.z;
+    let length = length(leaning);
+    // Where pictures lie on a line, or have no direction at all, nothing is tilted.
+    return select(normal, leaning / max(length, 1e-6), square > 1e-36 && length > 1e-3);
 }

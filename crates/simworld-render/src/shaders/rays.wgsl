@@ -50,6 +50,9 @@ var<private> aside: array<vec2u, LEVELS>;
 var<private> open: array<u32, LEVELS>;
 
 const NOTHING: u32 = 0xffffffffu;
+// In the last word of a triangle: where its normals are, and whether its part is cut out.
+const ADDRESS: u32 = 0x07ffffffu;
+const IS_CUT: u32 = 0x08000000u;
 const IS_LEAF: u32 = 0x80000000u;
 const NO_SHADOW: u32 = 0x80000000u;
 const FAR_AWAY: f32 = 3.0e38;
@@ -287,7 +290,8 @@ fn meet_triangles(ray: Ray, code: u32, scale: vec3f, unit: f32, number: u32, sta
     let run = triangles_of(code);
     for (var k = 0u; k < run.x; k++) {
         let at = run.y + k * 5u;
-        let t = meet_triangle(ray, triangle_at(at, scale, unit));
+        let one = triangle_at(at, scale, unit);
+        let t = meet_triangle(ray, one);
         if (t < start) {
             continue;
         }
@@ -297,6 +301,9 @@ fn meet_triangles(ray: Ray, code: u32, scale: vec3f, unit: f32, number: u32, sta
         var wins = t < old.t;
         if (tied) {
             wins = comes_first(number, old.number);
+        }
+        if ((FEATURES & WITH_CUTS) != 0u && wins && (pieces[at + 4u].w & IS_CUT) != 0u) {
+            wins = !looks_through(ray, t, one, at, number);
         }
         if (wins) {
             *best = Found(t, number, at);

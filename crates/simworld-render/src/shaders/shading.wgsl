@@ -8,10 +8,12 @@ const WITH_WATER: u32 = 2u;
 const WITH_SNOW: u32 = 4u;
 // Of rays alone, which meet models and everything else in one pipeline.
 const WITH_MODELS: u32 = 8u;
+// Of rays alone: some of these are cut out.
+const WITH_CUTS: u32 = 16u;
 
 fn surface_of(hit: Hit) -> Surface {
     let f = hit.finish;
-    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow, hit.normal, f.roughness, f.metallic);
+    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow.rgb, hit.bumped, f.roughness, f.metallic);
     switch hit.pattern {
         case 1u: { return facade(hit, base); }
         case 2u: { return road(hit, base); }
@@ -148,7 +150,8 @@ fn shade(hit: Hit) -> vec3f {
     if (leaves) {
         let cosine = saturate(facing * 0.7 + 0.3);
         color += s.albedo * globals.sun.rgb * (cosine * sunlit(hit.relative, sun));
-    } else if (facing > 0.0) {
+    } else if (facing > 0.0 && (hit.pattern != 8u || dot(hit.normal, sun) > 0.0)) {
+        // Bumps turn nothing to a sun that is behind the surface.
         color += reflected(s, -ray, sun) * globals.sun.rgb * sunlit(hit.relative, hit.normal);
     }
     // Nooks near the ground see less of the sky.
@@ -156,7 +159,7 @@ fn shade(hit: Hit) -> vec3f {
     let ambient = irradiance(s.normal) * nook;
     // Streets and leaves are too rough to mirror anything, unless they are wet.
     let dull = hit.pattern >= 2u && hit.pattern <= 6u && (FEATURES & WITH_WATER) == 0u;
-    color += s.albedo * (1.0 - s.metallic) * ambient + mirrored(s, -ray, ambient, dull);
+    color += (s.albedo * (1.0 - s.metallic) * ambient + mirrored(s, -ray, ambient, dull)) * hit.glow.w;
     if ((FEATURES & WITH_LAMPS) != 0u) {
         color += lamp_light(s, hit.relative, -ray);
     }

@@ -59,7 +59,7 @@ fn moving(asset: Asset) -> Asset {
 /// A board with a picture, of which the one half is dark.
 fn sign() -> Asset {
     let pixels = (0..64_u8).flat_map(|index| [if index % 8 < 4 { 40 } else { 220 }; 3]).collect();
-    let image = ModelImage { width: 8, height: 8, pixels };
+    let image = ModelImage { width: 8, height: 8, pixels, ..ModelImage::default() };
     board(Some(image), [[0.0; 2], [1.0; 2]], [Wrap::Clamp; 2])
 }
 

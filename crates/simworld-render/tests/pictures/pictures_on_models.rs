@@ -32,7 +32,8 @@ fn quarters(side: u32) -> ModelImage {
         (false, true) => BLUE,
         (false, false) => WHITE,
     };
-    ModelImage { width: side, height: side, pixels: (0..side * side).flat_map(pixel).collect() }
+    let pixels = (0..side * side).flat_map(pixel).collect();
+    ModelImage { width: side, height: side, pixels, ..ModelImage::default() }
 }
 
 fn camera() -> Camera {
@@ -137,7 +138,7 @@ fn beyond_its_edges_lies_what_the_wrap_says() {
 fn chequered(side: u32) -> Asset {
     let pixels =
         (0..side * side).flat_map(|k| [if (k % side + k / side).is_multiple_of(2) { GREY } else { 0 }; 3]);
-    let image = ModelImage { width: side, height: side, pixels: pixels.collect() };
+    let image = ModelImage { width: side, height: side, pixels: pixels.collect(), ..ModelImage::default() };
     board(Some(image), WHOLE, [Wrap::Repeat; 2])
 }
 
@@ -154,7 +155,7 @@ fn what_is_finer_than_a_pixel_is_its_mean() {
         values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
     };
     let (fine, coarse) = (shown(&chequered(1024)), shown(&chequered(8)));
-    let grey = ModelImage { width: 1, height: 1, pixels: vec![GREY; 3] };
+    let grey = ModelImage { width: 1, height: 1, pixels: vec![GREY; 3], ..ModelImage::default() };
     let grey = shown(&board(Some(grey), WHOLE, [Wrap::Repeat; 2]));
     for renderer in &mut renderers {
         let [fine, coarse, grey] =
@@ -182,6 +183,7 @@ fn both_backends_blur_alike() {
             width: side,
             height: side,
             pixels: (0..side * side).flat_map(pixel).collect(),
+            ..ModelImage::default()
         }];
         model.parts[0].texture =
             Some(simworld_core::asset::ModelTexture { image: 0, wrap: [Wrap::Clamp; 2] });

@@ -136,6 +136,11 @@ impl Column<'_> {
         if self.normalized == Normalized::Yes { (number / most).max(-1.0) } else { number }
     }
 
+    /// How many numbers a row has.
+    pub(super) const fn wide(&self) -> usize {
+        self.wide
+    }
+
     /// The first numbers of a row.
     pub(super) fn reals<const N: usize>(&self, row: usize) -> [f64; N] {
         std::array::from_fn(|which| self.real(row, which))

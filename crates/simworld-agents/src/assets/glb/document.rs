@@ -135,6 +135,10 @@ pub(super) struct Material {
     pub(super) pbr_metallic_roughness: Option<Pbr>,
     pub(super) emissive_factor: Option<[f64; 3]>,
     pub(super) emissive_texture: Option<TextureInfo>,
+    pub(super) normal_texture: Option<TextureInfo>,
+    pub(super) occlusion_texture: Option<TextureInfo>,
+    pub(super) alpha_mode: Option<String>,
+    pub(super) alpha_cutoff: Option<f64>,
     pub(super) extensions: MaterialExtensions,
 }
 
@@ -175,6 +179,10 @@ pub(super) struct TextureInfo {
     pub(super) index: usize,
     #[serde(default)]
     pub(super) tex_coord: u32,
+    /// Of normals, what the first two of each are multiplied by.
+    pub(super) scale: Option<f64>,
+    /// Of occlusion, how far it counts.
+    pub(super) strength: Option<f64>,
     #[serde(default)]
     pub(super) extensions: TextureExtensions,
 }

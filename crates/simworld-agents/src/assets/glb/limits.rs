@@ -36,7 +36,7 @@ impl Default for GlbLimits {
             triangles: 200_000,
             nodes: 10_000,
             depth: 64,
-            pixels: 3 * 4096 * 4096,
+            pixels: 6 * 4096 * 4096,
             keys: 8_000_000,
             texture: 1024,
         }

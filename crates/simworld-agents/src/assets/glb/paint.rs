@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::asset::{FARTHEST_PLACE, Finish, MOST_PIXELS, ModelImage, ModelTexture, Wrap, light_of};
+use simworld_core::asset::{
+    FARTHEST_PLACE, Finish, MOST_PIXELS, ModelImage, ModelTexture, Pictures, Transparency, Wrap, light_of,
+};
 use simworld_core::ops;
 
 use super::accessor::{Column, Data, Normalized, Number, get};
 use super::document::{Material, Primitive, Sampler, TextureInfo, TextureTransform};
 use super::error::GlbError;
-use super::finish::finish_of;
+use super::finish::{Body, Light, light, transparency};
 use super::limits::GlbLimits;
 use super::picture::{Undecoded, decode, wrap_of};
 use crate::assets::surface::within;
@@ -20,7 +22,7 @@ pub(super) struct Painter<'a> {
     pictures: BTreeMap<usize, ModelImage>,
     /// Those that stay pictures, and which they are by their number in the file.
     images: Vec<ModelImage>,
-    kept: BTreeMap<usize, u32>,
+    kept: BTreeMap<(usize, Role), u32>,
     pixels: u64,
     limit: u64,
     /// The longest side of a picture that stays one.
@@ -31,12 +33,18 @@ pub(super) struct Painter<'a> {
 pub(super) struct Coat {
     /// Linear-light sRGB in [0, 1].
     pub(super) colors: Vec<[f32; 3]>,
-    /// Where each lies on the picture.
+    /// Where each lies on the pictures.
     pub(super) places: Vec<[f32; 2]>,
+    /// How much is there of each, 0 to 1.
+    pub(super) alphas: Vec<f32>,
     /// The picture on them.
     pub(super) texture: Option<ModelTexture>,
+    /// What becomes of them where they are not all there.
+    pub(super) transparency: Transparency,
     /// How it takes light.
     pub(super) finish: Finish,
+    /// Place by place.
+    pub(super) pictures: Pictures,
     /// Whether the file says of what colour it is.
     pub(super) says: Says,
 }
@@ -46,6 +54,31 @@ pub(super) struct Coat {
 pub(super) enum Says {
     Color,
     Nothing,
+}
+
+/// What a picture is used for: as colours, as colours of which some are not there, or as numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Role {
+    Color,
+    Cut,
+    Numbers,
+}
+
+/// Where the pictures that stay lie on a primitive, by vertex: all of them where the first of them does.
+#[derive(Default)]
+pub(super) struct Sheet(Option<Vec<[f64; 2]>>);
+
+impl Sheet {
+    /// Whether a picture lies there; the first one does.
+    pub(super) fn takes(&mut self, laid: &Laid) -> bool {
+        *self.0.get_or_insert_with(|| laid.places.clone()) == laid.places
+    }
+
+    /// The places on it of so many vertices.
+    fn places(&self, vertices: usize) -> Vec<[f32; 2]> {
+        let single = |place: &[f64; 2]| place.map(|part| part as f32);
+        self.0.as_ref().map_or_else(|| vec![[0.0; 2]; vertices], |places| places.iter().map(single).collect())
+    }
 }
 
 /// A picture as it lies on a primitive.
@@ -97,28 +130,39 @@ impl<'a> Painter<'a> {
         let factor = pbr.and_then(|pbr| pbr.base_color_factor).unwrap_or([1.0; 4]);
         let base = [factor[0], factor[1], factor[2]].map(|channel| channel.clamp(0.0, 1.0) as f32);
         let mut says = if base == [1.0; 3] { Says::Nothing } else { Says::Color };
-        let mut colors = vec![base; vertices];
+        let transparency = transparency(material, primitive.material.unwrap_or(0))?;
+        let (mut colors, mut alphas) = (vec![base; vertices], vec![1.0; vertices]);
+        if transparency != Transparency::Opaque {
+            alphas.fill(factor[3].clamp(0.0, 1.0) as f32);
+        }
         if let Some(column) = self.own(primitive, vertices)? {
             says = Says::Color;
-            for (row, color) in colors.iter_mut().enumerate() {
+            let has_alpha = column.wide() == 4 && transparency != Transparency::Opaque;
+            for (row, (color, alpha)) in colors.iter_mut().zip(&mut alphas).enumerate() {
                 let own: [f64; 3] = column.reals(row);
                 *color = std::array::from_fn(|which| color[which] * own[which].clamp(0.0, 1.0) as f32);
+                if has_alpha {
+                    *alpha *= column.real(row, 3).clamp(0.0, 1.0) as f32;
+                }
             }
         }
-        let (mut places, mut texture) = (vec![[0.0; 2]; vertices], None);
+        let (mut sheet, mut texture) = (Sheet::default(), None);
         if let Some(info) = pbr.and_then(|pbr| pbr.base_color_texture.as_ref()) {
             says = Says::Color;
             let laid = self.lay(info, primitive, vertices)?;
-            if self.side == 0 {
-                self.dye(&laid, triangles, &mut colors)?;
+            if sheet.takes(&laid) && self.keeps() {
+                let role = if transparency == Transparency::Opaque { Role::Color } else { Role::Cut };
+                texture = Some(self.keep(&laid, role)?);
             } else {
-                texture = Some(ModelTexture { image: self.keep(laid.image)?, wrap: laid.wrap });
-                places = laid.places.iter().map(|place| place.map(|part| part as f32)).collect();
+                self.dye(&laid, triangles, &mut colors)?;
             }
         }
-        let finish = finish_of(self, material, primitive, vertices, triangles)?;
-        if colors.iter().flatten().all(|channel| channel.is_finite()) {
-            Ok(Coat { colors, places, texture, finish, says })
+        let body = Body { primitive, vertices, triangles };
+        let Light { finish, pictures } = light(self, material, body, &mut sheet)?;
+        let places = if self.keeps() { sheet.places(vertices) } else { vec![[0.0; 2]; vertices] };
+        let numbers = colors.iter().flatten().chain(&alphas);
+        if numbers.into_iter().all(|number| number.is_finite()) {
+            Ok(Coat { colors, places, alphas, texture, transparency, finish, pictures, says })
         } else {
             Err(GlbError::Number { what: "material", index: primitive.material.unwrap_or(0) })
         }
@@ -185,7 +229,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Visits the pixels at the corners of triangles, a little [within].
-    pub(super) fn visit(
+    fn visit(
         &mut self,
         laid: &Laid,
         triangles: &[[u32; 3]],
@@ -205,18 +249,49 @@ impl<'a> Painter<'a> {
         Ok(())
     }
 
+    /// Whether pictures stay pictures.
+    pub(super) const fn keeps(&self) -> bool {
+        self.side > 0
+    }
+
+    /// The mean of a picture at the corners of triangles.
+    pub(super) fn mean(
+        &mut self,
+        laid: &Laid,
+        triangles: &[[u32; 3]],
+        part: impl Fn(u8) -> f64,
+    ) -> Result<[f64; 3], GlbError> {
+        let mut sum = [0.0; 3];
+        self.visit(laid, triangles, |_, pixel| {
+            sum = std::array::from_fn(|channel| sum[channel] + part(pixel[channel]));
+        })?;
+        // A primitive has a triangle.
+        Ok(sum.map(|channel: f64| channel / (3 * triangles.len()) as f64))
+    }
+
+    /// Keeps a picture that lies on a primitive among those that stay.
+    pub(super) fn keep(&mut self, laid: &Laid, role: Role) -> Result<ModelTexture, GlbError> {
+        let image = self.number(laid.image, role)?;
+        Ok(ModelTexture { image, wrap: laid.wrap })
+    }
+
     /// The number of a picture among those that stay.
-    fn keep(&mut self, index: usize) -> Result<u32, GlbError> {
-        if let Some(number) = self.kept.get(&index) {
+    fn number(&mut self, index: usize, role: Role) -> Result<u32, GlbError> {
+        if let Some(number) = self.kept.get(&(index, role)) {
             return Ok(*number);
         }
         let mut image = self.decoded(index)?;
+        // Before it is halved, which is by what it holds.
+        image.content = role.content();
+        if role != Role::Cut {
+            image.alpha.clear();
+        }
         while image.width.max(image.height) > self.side {
             image = image.halved();
         }
         let number = self.images.len() as u32;
         self.images.push(image);
-        self.kept.insert(index, number);
+        self.kept.insert((index, role), number);
         Ok(number)
     }
 

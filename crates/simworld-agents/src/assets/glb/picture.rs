@@ -8,7 +8,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use simworld_core::asset::{LONGEST_IMAGE, ModelImage, Wrap};
+use simworld_core::asset::{Content, LONGEST_IMAGE, ModelImage, Wrap};
 
 /// Why a picture is none.
 pub(super) enum Undecoded {
@@ -50,6 +50,16 @@ fn png(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(|error| broken(&error.to_string()))?;
     let samples = &samples[..frame.buffer_size()];
+    let mut alpha: Vec<u8> = match frame.color_type {
+        png::ColorType::Rgba => samples.as_chunks::<4>().0.iter().map(|[.., alpha]| *alpha).collect(),
+        png::ColorType::GrayscaleAlpha => {
+            samples.as_chunks::<2>().0.iter().map(|[_, alpha]| *alpha).collect()
+        }
+        _ => Vec::new(),
+    };
+    if alpha.iter().all(|alpha| *alpha == u8::MAX) {
+        alpha.clear();
+    }
     let pixels = match frame.color_type {
         png::ColorType::Rgb => samples.to_vec(),
         png::ColorType::Rgba => {
@@ -61,7 +71,7 @@ fn png(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
         }
         png::ColorType::Indexed => return Err(broken("its palette was not expanded")),
     };
-    Ok(ModelImage { width, height, pixels })
+    Ok(ModelImage { width, height, pixels, alpha, content: Content::Color })
 }
 
 fn jpeg(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
@@ -76,7 +86,7 @@ fn jpeg(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
     let (width, height) = decoder.dimensions().ok_or_else(|| broken("it says no size"))?;
     affordable(width as u64, height as u64, most)?;
     let samples = decoder.decode().map_err(|error| broken(&error.to_string()))?;
-    Ok(ModelImage { width: width as u32, height: height as u32, pixels: samples })
+    Ok(ModelImage { width: width as u32, height: height as u32, pixels: samples, ..ModelImage::default() })
 }
 
 fn affordable(width: u64, height: u64, most: u64) -> Result<(), Undecoded> {
@@ -113,7 +123,8 @@ mod tests {
     fn what_is_decoded_is_what_was_encoded() {
         let file = png_of(2, 1, &[255, 0, 0, 0, 0, 255]);
         let picture = decode(&file, 10).unwrap_or_else(|_| unreachable!("it is a PNG"));
-        assert_eq!(picture, ModelImage { width: 2, height: 1, pixels: vec![255, 0, 0, 0, 0, 255] });
+        let pixels = vec![255, 0, 0, 0, 0, 255];
+        assert_eq!(picture, ModelImage { width: 2, height: 1, pixels, ..ModelImage::default() });
         assert_eq!(
             [10_497, 33_071, 33_648, 7].map(wrap_of),
             [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat]

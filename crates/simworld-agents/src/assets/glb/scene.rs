@@ -163,11 +163,18 @@ impl Gatherer<'_> {
         let coat = self.painter.coat(primitive, positions.count, &triangles)?;
         self.surface.colors.extend(coat.colors);
         self.surface.places.extend(coat.places);
+        self.surface.alphas.extend(coat.alphas);
         let paint = if coat.says == Says::Color { Paint::Own } else { Paint::Entity };
         let name = name.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
-        let (triangle_count, finish) = (triangles.len() as u32, coat.finish);
-        let part = ModelPart { name, triangles: triangle_count, paint, finish, texture: coat.texture };
-        self.surface.parts.push(part);
+        self.surface.parts.push(ModelPart {
+            name,
+            triangles: triangles.len() as u32,
+            paint,
+            finish: coat.finish,
+            texture: coat.texture,
+            transparency: coat.transparency,
+            pictures: coat.pictures,
+        });
         self.surface.triangles.extend(triangles.iter().map(|[a, b, c]| {
             let [a, b, c] = [first + a, first + b, first + c];
             if map((a - first) as usize).mirrors { [a, c, b] } else { [a, b, c] }

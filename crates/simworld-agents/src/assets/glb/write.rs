@@ -1,7 +1,9 @@
 //! Models as GLB files: one mesh, a primitive and a material for each part, colours at the vertices, pictures as PNG, and how they move.
 
 use serde_json::{Value, json};
-use simworld_core::asset::{Model, ModelImage, ModelPart, ModelVertex, Paint, Wrap};
+use simworld_core::asset::{
+    Model, ModelImage, ModelPart, ModelTexture, ModelVertex, Paint, Transparency, Wrap,
+};
 
 use super::write_rig::{Written, rig};
 
@@ -34,8 +36,15 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
         std::array::from_fn(|axis| positions.iter().map(|row| row[axis]).fold(from, pick))
     };
     file.bound(position, json!(fold(f32::INFINITY, f32::min)), json!(fold(f32::NEG_INFINITY, f32::max)));
-    let (normal, color) = (file.column(&normals), file.column(&rows(|vertex| vertex.color)));
-    let is_textured = model.parts.iter().any(|part| part.texture.is_some());
+    let normal = file.column(&normals);
+    let color = if model.vertices.iter().all(|vertex| vertex.alpha >= 1.0) {
+        file.column(&rows(|vertex| vertex.color))
+    } else {
+        let with_alpha = |ModelVertex { color: [r, g, b], alpha, .. }: &ModelVertex| [*r, *g, *b, *alpha];
+        file.column(&model.vertices.iter().map(with_alpha).collect::<Vec<_>>())
+    };
+    let has_pictures = |part: &ModelPart| part.texture.is_some() || part.pictures.all().next().is_some();
+    let is_textured = model.parts.iter().any(has_pictures);
     let place = is_textured
         .then(|| file.column(&model.vertices.iter().map(|vertex| vertex.place).collect::<Vec<_>>()));
     let pictures: Vec<Option<usize>> = model.images.iter().map(|image| file.picture(image)).collect();
@@ -50,9 +59,9 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
         }
         if part.paint == Paint::Own {
             attributes["COLOR_0"] = json!(color);
-            if let (Some(place), true) = (place, part.texture.is_some()) {
-                attributes["TEXCOORD_0"] = json!(place);
-            }
+        }
+        if let (Some(place), true) = (place, has_pictures(part)) {
+            attributes["TEXCOORD_0"] = json!(place);
         }
         let material = file.material(part, &pictures);
         file.primitives
@@ -123,24 +132,50 @@ impl File {
         Some(self.images.len() - 1)
     }
 
+    /// Adds a texture; its number, if its picture is one.
+    fn texture(&mut self, texture: ModelTexture, pictures: &[Option<usize>]) -> Option<usize> {
+        let picture = pictures.get(texture.image as usize)?.as_ref()?;
+        let [right, down] = texture.wrap.map(|wrap| match wrap {
+            Wrap::Repeat => 10_497,
+            Wrap::Mirror => 33_648,
+            Wrap::Clamp => 33_071,
+        });
+        self.samplers.push(json!({"wrapS": right, "wrapT": down}));
+        self.textures.push(json!({"source": picture, "sampler": self.samplers.len() - 1}));
+        Some(self.textures.len() - 1)
+    }
+
     /// Adds the material of a part; its number.
     fn material(&mut self, part: &ModelPart, pictures: &[Option<usize>]) -> usize {
         let finish = &part.finish;
         let mut pbr = json!({"metallicFactor": finish.metallic, "roughnessFactor": finish.roughness});
-        let texture = part.texture.filter(|_| part.paint == Paint::Own);
-        let picture =
-            texture.and_then(|texture| Some((pictures.get(texture.image as usize)?.as_ref()?, texture.wrap)));
-        if let Some((picture, wrap)) = picture {
-            let [right, down] = wrap.map(|wrap| match wrap {
-                Wrap::Repeat => 10_497,
-                Wrap::Mirror => 33_648,
-                Wrap::Clamp => 33_071,
-            });
-            self.samplers.push(json!({"wrapS": right, "wrapT": down}));
-            self.textures.push(json!({"source": picture, "sampler": self.samplers.len() - 1}));
-            pbr["baseColorTexture"] = json!({"index": self.textures.len() - 1});
+        let own = part.texture.filter(|_| part.paint == Paint::Own);
+        let mut lay = |texture: Option<ModelTexture>| self.texture(texture?, pictures);
+        if let Some(index) = lay(own) {
+            pbr["baseColorTexture"] = json!({"index": index});
         }
-        let mut material = json!({"name": part.name, "pbrMetallicRoughness": pbr});
+        if let Some(index) = lay(part.pictures.metal) {
+            pbr["metallicRoughnessTexture"] = json!({"index": index});
+        }
+        let mut material = json!({"name": part.name});
+        if let Some(index) = lay(part.pictures.emission) {
+            material["emissiveTexture"] = json!({"index": index});
+        }
+        if let Some(index) = lay(part.pictures.shade) {
+            material["occlusionTexture"] = json!({"index": index, "strength": part.pictures.shade_strength});
+        }
+        if let Some(index) = lay(part.pictures.bumps) {
+            material["normalTexture"] = json!({"index": index, "scale": part.pictures.bump_scale});
+        }
+        material["pbrMetallicRoughness"] = pbr;
+        match part.transparency {
+            Transparency::Opaque => {}
+            Transparency::Cutout { cutoff } => {
+                material["alphaMode"] = json!("MASK");
+                material["alphaCutoff"] = json!(cutoff);
+            }
+            Transparency::Blend => material["alphaMode"] = json!("BLEND"),
+        }
         let brightest = finish.emission.iter().copied().fold(0.0, f32::max);
         if brightest > 1.0 {
             self.shines = true;
@@ -199,7 +234,14 @@ impl File {
 fn png_of(image: &ModelImage) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, image.width, image.height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header()?.write_image_data(&image.pixels)?;
+    if image.alpha.is_empty() {
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.write_header()?.write_image_data(&image.pixels)?;
+    } else {
+        encoder.set_color(png::ColorType::Rgba);
+        let colors = image.pixels.as_chunks::<3>().0.iter().zip(&image.alpha);
+        let whole: Vec<u8> = colors.flat_map(|([r, g, b], alpha)| [*r, *g, *b, *alpha]).collect();
+        encoder.write_header()?.write_image_data(&whole)?;
+    }
     Ok(file)
 }

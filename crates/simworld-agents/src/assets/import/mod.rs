@@ -272,14 +272,15 @@ fn model(mut surface: Surface, solids: Vec<Solid>) -> Result<Model, RigError> {
         rig.face(&normals);
         Rig::new(rig)
     });
-    let looks = surface.colors.iter().zip(&surface.places);
+    let looks = surface.colors.iter().zip(surface.places.iter().zip(&surface.alphas));
     let vertices = surface.points.iter().zip(&surface.normals).zip(looks);
     let vertices = vertices
-        .map(|((point, normal), (color, place))| ModelVertex {
+        .map(|((point, normal), (color, (place, alpha)))| ModelVertex {
             position: single((*point).into()),
             normal: single((*normal).into()),
             color: *color,
             place: *place,
+            alpha: *alpha,
         })
         .collect();
     Ok(Model {

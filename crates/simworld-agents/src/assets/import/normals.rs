@@ -61,6 +61,7 @@ fn share(surface: &mut Surface, normals: &[Vector3]) {
     surface.points = former.iter().map(|point| surface.points[*point]).collect();
     surface.colors = former.iter().map(|point| surface.colors[*point]).collect();
     surface.places = former.iter().map(|point| surface.places[*point]).collect();
+    surface.alphas = former.iter().map(|point| surface.alphas[*point]).collect();
     surface.pick_rig(&former);
     surface.normals = kept;
 }

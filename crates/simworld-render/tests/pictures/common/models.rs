@@ -75,7 +75,8 @@ pub(crate) fn board(image: Option<ModelImage>, places: [[f32; 2]; 2], wrap: [Wra
             let (right, down) = ((1.0 - position[1]) * 0.5, (2.0 - position[2]) * 0.5);
             let between =
                 |axis: usize, share: f32| places[0][axis] + (places[1][axis] - places[0][axis]) * share;
-            ModelVertex { position, normal, color: [1.0; 3], place: [between(0, right), between(1, down)] }
+            let place = [between(0, right), between(1, down)];
+            ModelVertex { position, normal, color: [1.0; 3], place, ..ModelVertex::default() }
         }));
         model.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
     }
@@ -98,4 +99,35 @@ pub(crate) fn add(world: &mut World, asset: &Asset, at: [f64; 3]) -> EntityId {
     let id = world.add_asset(asset.clone()).expect("it is an asset");
     let pose = pose_facing(Point3::new(at[0], at[1], at[2]), 0.0);
     world.spawn(asset.at(id, pose)).expect("a solid in the world")
+}
+
+/// A card of 2 m by 2 m and 2 cm, with the same picture on both of its faces and nothing at its rims; from either side it is seen with its upper
+/// left corner at `places[0]` and its lower right one at `places[1]`, mirrored from the front. Faces are of one part, which somebody makes what it is.
+pub(crate) fn card(image: ModelImage, places: [[f32; 2]; 2], finish: impl FnOnce(&mut ModelPart)) -> Asset {
+    let size = [0.02, 2.0, 2.0];
+    let points = corners(size);
+    let mut model = Model { images: vec![image], ..Model::default() };
+    for (corners, ahead) in [([0, 4, 6, 2], -1.0), ([1, 3, 7, 5], 1.0)] {
+        let first = model.vertices.len() as u32;
+        model.vertices.extend(corners.map(|corner: usize| {
+            let position = points[corner];
+            let share = [(1.0 - position[1]) * 0.5, (2.0 - position[2]) * 0.5];
+            let place = std::array::from_fn(|axis| {
+                places[0][axis] + (places[1][axis] - places[0][axis]) * share[axis]
+            });
+            ModelVertex {
+                position,
+                normal: [ahead, 0.0, 0.0],
+                color: [1.0; 3],
+                place,
+                ..ModelVertex::default()
+            }
+        }));
+        model.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let texture = Some(ModelTexture { image: 0, wrap: [Wrap::Clamp; 2] });
+    let mut part = ModelPart { name: "card".into(), triangles: 4, texture, ..ModelPart::default() };
+    finish(&mut part);
+    model.parts = vec![part];
+    asset("card", model, size)
 }
