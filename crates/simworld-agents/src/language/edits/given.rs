@@ -410,6 +410,20 @@ impl Reader<'_> {
         let is_particle = last + 1 == stop && matches!(self.word(last), Some("in" | "up" | "down" | "out"));
         let words = words + usize::from(is_particle);
         let Target::Any(class) = &what.target else { return None };
+        // "If there is no picnic table, add one": a picnic table, and no table.
+        let said = super::super::lexer::lex(&what.text.to_lowercase());
+        let article = longest_phrase(&said, &["a", "an", "any", "no", "the"]).unwrap_or(0);
+        let asset = self.names.asset_words(&said[article..]).filter(|words| *words > 1);
+        let asset: Option<Vec<String>> = asset.map(|words| {
+            said[article..article + words]
+                .iter()
+                .filter_map(|lexeme| match &lexeme.token {
+                    Token::Word(word) => Some(word.clone()),
+                    _ => None,
+                })
+                .collect()
+        });
+        let noun = asset.unwrap_or_else(|| class.words[0].split(' ').map(str::to_owned).collect());
         let from = self.at + adds + words;
         let at = if from < stop {
             let mut reader = Reader { at: from, ..*self };
@@ -421,14 +435,14 @@ impl Reader<'_> {
             vec![super::wish::Where::To(*relation, super::wish::Anchor::Thing((**anchor).clone()))]
         };
         let thing = super::wish::NewThing {
-            words: class.words[0].split(' ').map(str::to_owned).collect(),
+            text: noun.join(" "),
+            words: noun,
             count: 1,
             many: false,
             paint: what.traits.paint,
             scale: 1.0,
             height: None,
             name: None,
-            text: class.words[0].to_owned(),
         };
         self.at = end;
         Some(Wish::Add { things: vec![thing], at })
@@ -450,7 +464,11 @@ impl Reader<'_> {
         }
         if self.view.streets.is_some() && plural && parser.eat_any(EXCEPT) {
             parser.class = if let Target::Any(class) = &what.target { Some(class) } else { None };
-            if let Ok(except) = parser.reference(1) {
+            if let Ok(mut except) = parser.reference(1) {
+                // "All oaks except the tallest": of the oaks.
+                if except.target == what.target && except.traits.sort.is_none() {
+                    except.traits.sort.clone_from(&what.traits.sort);
+                }
                 what.except = Some(Box::new(except));
                 return;
             }

@@ -5,6 +5,7 @@
 
 mod afterthoughts;
 mod answers;
+mod antecedents;
 mod apart;
 mod aside;
 mod ask;
@@ -14,6 +15,7 @@ mod breaks;
 mod change;
 mod complaints;
 mod conditions;
+mod doubted;
 mod dressed;
 mod each;
 mod ends;
@@ -41,6 +43,7 @@ mod parse;
 mod parts;
 mod passage;
 mod passing;
+mod phrased;
 mod places;
 mod plain;
 mod polite;
@@ -139,8 +142,10 @@ pub(crate) fn read(
     let mut lexemes = hearing::hear(words, None);
     breaks::in_plain_words(words, &mut lexemes);
     respelt::in_plain_spelling(words, &mut lexemes);
+    doubted::in_plain_words(&mut lexemes);
     retold::in_plain_words(&mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
+    phrased::in_plain_words(words, &mut lexemes, &names);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
     which::in_plain_words(&mut lexemes);
@@ -338,6 +343,9 @@ fn wishes_of(
         return Ok(wishes);
     }
     let readers = ways.iter().map(|(lexemes, memo)| over((lexemes.as_slice(), memo)));
+    if let Some(wishes) = reader.with_antecedents(&is_known, &is_there) {
+        return Ok(wishes);
+    }
     if let Some(wishes) =
         std::iter::once(reader).chain(readers).find_map(|reader| reader.of_sentences(&is_known, &is_there))
     {
@@ -436,6 +444,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(retold::words())
         .chain(breaks::words())
         .chain(told::words())
+        .chain(doubted::words())
+        .chain(phrased::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -5,7 +5,7 @@
 //! why somebody wants something. What begins as an order does is none, nor what says how something should be, so that no
 //! wish is passed over because its words are not understood.
 
-use super::super::clause::{Reference, Target};
+use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::{category, is_animate, longest, longest_phrase};
 use super::super::phrases::Phrases;
@@ -103,8 +103,28 @@ impl Reader<'_> {
                 continue;
             }
             let is_first = said.wish.is_none() && spoken_of.is_empty();
-            if self.is_count_told(&wishes, from, end) {
+            if self.is_count_told(&wishes, from, end)
+                || self.is_dislike_told(from, end)
+                || self.is_only_told(&wishes, from, end)
+            {
                 continue;
+            }
+            // "The bins are ugly" are both of them, and "the cone is" is one.
+            let is_one = |one: &Reference| one.count == Count::One && !super::resolve::plural(one);
+            if (from..end).any(|at| self.word(at) == Some("both"))
+                && matches!(spoken_of, [only] if is_one(only))
+                && wishes
+                    .iter_mut()
+                    .flatten()
+                    .any(|wish| wish.objects_mut().iter().any(|one| super::follow::is_open(one)))
+            {
+                continue;
+            }
+            if let Some(before) = &said.wish {
+                self.share_place(before, from, &mut wishes);
+            }
+            if spoken_of.is_empty() {
+                wishes.iter_mut().flatten().for_each(|wish| beside_what_was_told(wish, &said.place));
             }
             if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
                 continue;
@@ -162,7 +182,7 @@ impl Reader<'_> {
                     || by_sentence && self.is_sentence_aside(from, end, search.is_known)
             };
             if !asks_nothing && !is_told()
-                || said.wish.is_some() && self.is_listed(said, from, end)
+                || said.wish.is_some() && (self.is_listed(said, from, end) || self.goes_on_within(from, end))
                 || self.hides_wish(said, (from, end), search.is_known)
             {
                 return None;
@@ -251,6 +271,110 @@ impl Reader<'_> {
                 || super::super::numbers::number(&self.lexemes[parser.at..end.max(parser.at)]).is_some())
     }
 
+    /// "..., he'll fetch it later, and the crate behind the shop": a certain thing and its place behind "and", which no remark holds.
+    fn goes_on_within(&self, from: usize, end: usize) -> bool {
+        (from + 1..end.saturating_sub(3)).any(|at| {
+            if !is_mark(&self.lexemes[at]) || self.word(at + 1) != Some("and") || !self.is_definite(at + 2) {
+                return false;
+            }
+            let mut parser = self.parser(at + 2, end);
+            parser.reference(0).is_ok_and(|what| what.relation.is_some()) && parser.at >= end
+                || parser.at > at + 2 && self.is_place(parser.at)
+        })
+    }
+
+    /// "I hate the cone, so let's get rid of both": what an order follows from is none.
+    fn is_dislike_told(&self, from: usize, end: usize) -> bool {
+        const DISLIKES: &Phrases = &Phrases::of(&[
+            "i hate",
+            "we hate",
+            "i cant stand",
+            "we cant stand",
+            "i dont like",
+            "we dont like",
+            "i dont need",
+            "we dont need",
+            "i cant bear",
+        ]);
+        longest_phrase(&self.lexemes[from..end], DISLIKES).is_some() && self.leads_to_order(end)
+    }
+
+    /// What is read as a wish and only tells: of a crowd, of the weather that is to come, of a street that somebody closed.
+    pub(super) fn is_only_told(&self, wishes: &[Vec<Wish>], from: usize, end: usize) -> bool {
+        const WHO: &Phrases = &Phrases::of(&[
+            "they",
+            "theyve",
+            "they have",
+            "somebody",
+            "someone",
+            "the council",
+            "the city",
+            "the town",
+            "the police",
+            "the mayor",
+        ]);
+        let is_sky = |wish: &Wish| matches!(wish, Wish::Sky(_));
+        let is_passage = |wish: &Wish| matches!(wish, Wish::Passage { .. });
+        let has_closed = longest_phrase(&self.lexemes[from..end], WHO).is_some_and(|words| {
+            matches!(
+                self.word(from + words),
+                Some("closed" | "shut" | "blocked" | "barred" | "opened" | "reopened")
+            )
+        });
+        let is_forecast = || {
+            (from..end).any(|at| longest_phrase(&self.lexemes[at..end], super::sky::FORECASTS).is_some())
+                && self.leads_to_order(end)
+        };
+        has_closed && wishes.iter().flatten().any(is_passage)
+            || wishes.iter().flatten().any(is_sky)
+                && (is_forecast() || longest_phrase(&self.lexemes[from..end], super::sky::SHIVERS).is_some())
+            || self.is_crowd_told(wishes, from)
+    }
+
+    /// "Kids are kids", "that's eleven people": nobody puts a crowd nowhere without a verb.
+    fn is_crowd_told(&self, wishes: &[Vec<Wish>], from: usize) -> bool {
+        const SAID: &Phrases = &Phrases::of(&[
+            "thats",
+            "that is",
+            "were",
+            "we are",
+            "there are",
+            "therell be",
+            "there will be",
+            "theyre",
+            "they are",
+            "ill have",
+            "well be",
+        ]);
+        const CROWD: &[&str] = &[
+            "people", "kids", "children", "folks", "guests", "visitors", "boys", "girls", "lads", "ladies",
+            "men", "women", "friends",
+        ];
+        let said = &self.lexemes[from.saturating_sub(1)..];
+        let is_said = longest_phrase(said, SAID).or(longest_phrase(&self.lexemes[from..], SAID)).is_some();
+        let is_crowd = |wish: &Wish| {
+            matches!(wish, Wish::Add { things, at } if (at.is_empty() || is_said)
+                && things.iter().any(|thing| thing.words.last().is_some_and(|word| CROWD.contains(&word.as_str()))))
+        };
+        longest(&self.lexemes[from..], &VERBS).is_none() && wishes.iter().flatten().any(is_crowd)
+    }
+
+    /// "A slide in Rose Park, and a seesaw": what is listed behind a place without one of its own goes there too.
+    pub(super) fn share_place(&self, before: &Wish, from: usize, wishes: &mut [Vec<Wish>]) {
+        let is_joined = from > 0 && matches!(self.word(from - 1), Some("and" | "also" | "plus"));
+        if !is_joined || longest(&self.lexemes[from..], &VERBS).is_some() {
+            return;
+        }
+        let Wish::Add { at: place, .. } = before else { return };
+        for wish in wishes.iter_mut().flatten() {
+            if let Wish::Add { at, .. } = wish
+                && at.is_empty()
+            {
+                at.clone_from(place);
+            }
+        }
+    }
+
     /// "Rename it", whatever is said behind.
     fn renames(&self, at: usize, end: usize) -> bool {
         longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, words)| {
@@ -322,7 +446,7 @@ impl Reader<'_> {
     }
 
     /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
-    fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+    pub(super) fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
         (from + 1..end).rev().find_map(|at| {
             let whose = ["a", "an", "her", "his", "my", "their", "our", "any", "no"];
             self.word(at - 1).filter(|word| whose.contains(word))?;
@@ -356,6 +480,16 @@ impl Reader<'_> {
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
         // "There is too much litter at the statue": nothing that "it" could be, but the statue.
         let stop = if longest_phrase(&self.lexemes[from..end], TOO_MUCH).is_some() { end } else { stop };
+        // "The blue bench is where the ladies knit": the bench, and not the ladies.
+        let stop = (from + 1..stop)
+            .find(|at| {
+                longest_phrase(
+                    &self.lexemes[*at..stop],
+                    &["is where", "is the place where", "is the spot where", "is what", "is when"],
+                )
+                .is_some()
+            })
+            .unwrap_or(stop);
         // "The statue is so small that people overlook it": the statue, and not the people.
         let so = (from..stop).find(|at| self.word(*at) == Some("so"));
         let stop = so.and_then(|so| (so + 1..stop).find(|at| self.word(*at) == Some("that"))).unwrap_or(stop);
@@ -363,6 +497,7 @@ impl Reader<'_> {
         let too = (from..stop).find(|at| matches!(self.word(*at), Some("too" | "enough")));
         let whom = too.and_then(|too| (too + 1..stop).find(|at| self.word(*at) == Some("for")));
         let mut things = self.spoken_of(from, whom.unwrap_or(stop));
+
         // "It is for Anna": what was spoken of before stays the first.
         let again =
             longest_phrase(&self.lexemes[from..end], &["it", "its", "it is", "they", "theyre", "they are"]);
@@ -397,7 +532,13 @@ impl Reader<'_> {
         let of_those = (self.names_ones(start, stop) && self.last_noun(start, one).is_none())
             .then(|| self.with_noun(said, start, stop))
             .flatten();
-        if let Some(wishes) = of_those.and_then(|order| self.read_anew(&order)) {
+        if let Some(wishes) = of_those.as_ref().and_then(|order| self.read_anew(order)) {
+            return Some(wishes);
+        }
+        // "Paint the white car blue and the black one too".
+        if let Some(wishes) =
+            of_those.as_ref().and_then(|order| self.over(order).more_of_it(said, order.len()))
+        {
             return Some(wishes);
         }
         if let Ok(wishes) = self.wish(end)
@@ -485,6 +626,18 @@ impl Reader<'_> {
             && self.word(at - 1).is_none_or(|word| !BEFORE.contains(&word))
             && self.word(at + 1).is_some()
             && !self.is_place(at)
+    }
+}
+
+/// "There's a draught at the table, put a campfire next to it": of the table, where nothing else was told of.
+fn beside_what_was_told(wish: &mut Wish, place: &[super::wish::Where]) {
+    use super::wish::{Anchor, Where};
+    let [Where::To(_, anchor @ Anchor::Thing(_)) | Where::By(anchor @ Anchor::Thing(_))] = place else {
+        return;
+    };
+    if let Wish::Add { at, .. } = wish {
+        let anchors = at.iter_mut().filter_map(Where::anchor_mut);
+        anchors.filter(|own| own.is_it()).for_each(|own| *own = anchor.clone());
     }
 }
 

@@ -437,10 +437,14 @@ impl Finder<'_> {
 /// Whether the noun is in the plural: "the trash bins".
 pub(super) fn plural(reference: &Reference) -> bool {
     let Target::Any(class) = &reference.target else { return false };
-    let lower = reference.text.to_lowercase();
+    let lower = reference.text.to_lowercase().replace("'s", "").replace("’s", "");
     let head = lower.split([',', '.']).next().unwrap_or_default();
     let head = lex(head);
-    let is_singular = |word: &str| class.words.iter().any(|known| known.rsplit(' ').next() == Some(word));
+    // "The limes" are trees of that sort.
+    let sort = reference.traits.sort.as_ref().and_then(|sort| sort.rsplit('_').next());
+    let is_singular = |word: &str| {
+        class.words.iter().any(|known| known.rsplit(' ').next() == Some(word)) || sort == Some(word)
+    };
     let many = ["people", "everybody", "everyone", "men", "women", "kids"];
     let is_plural = |word: &str| {
         let stems = [word.strip_suffix("es"), word.strip_suffix('s')];

@@ -82,6 +82,28 @@ const USUAL: &[(&str, &str)] = &[
     ("remoev", "remove"),
     ("tabel", "table"),
     ("tabels", "tables"),
+    ("neer", "near"),
+    ("wether", "weather"),
+    ("whereabouts", "where"),
+    ("nere", "near"),
+    ("bothe", "both"),
+    ("aer", "are"),
+    ("mak", "make"),
+    ("freind", "friend"),
+    ("coud", "could"),
+    ("culd", "could"),
+    ("wuld", "would"),
+    ("mvoe", "move"),
+    ("moev", "move"),
+    ("wya", "way"),
+    ("skool", "school"),
+    ("pait", "paint"),
+    ("paitn", "paint"),
+    ("nex", "next"),
+    ("awy", "away"),
+    ("awya", "away"),
+    ("rdo", "red"),
+    ("rmove", "remove"),
 ];
 
 /// Behind "tow", that it is an order and no slip of "two".
@@ -131,8 +153,16 @@ pub(super) fn correct(
             continue;
         }
         let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());
+        // "Limes" are no slip of "times".
+        let written = &words[lexemes[here].start..lexemes[here].end];
+        let is_plural = !written.contains(['\'', '’'])
+            && super::super::sorts::singulars(word).skip(1).any(|word| stock.has_word(&word));
         if right.is_none()
-            && (own.contains(word) || is_known(word) || names.has_word(word) || streets.has_word(word))
+            && (is_plural
+                || own.contains(word)
+                || is_known(word)
+                || names.has_word(word)
+                || streets.has_word(word))
         {
             continue;
         }

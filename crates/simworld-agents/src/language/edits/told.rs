@@ -94,7 +94,7 @@ impl Reader<'_> {
     }
 
     /// Whether "so" follows and then an order, or what may be one: "..., so paint it".
-    fn leads_to_order(&self, end: usize) -> bool {
+    pub(super) fn leads_to_order(&self, end: usize) -> bool {
         let marks = self.lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
         let so = longest_phrase(
             &self.lexemes[end + marks..],

@@ -12,7 +12,8 @@ pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah
     "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "pretty please", "pretty pleas", "if nobody minds", "to sleep in", "to sleep on", "to hide in", "to climb on", "be a dear", "be an angel", "after all", "for crying out loud"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
-/// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
+/// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number, `K` a colour, `W` a place, `N` and `V`
+/// certain things, `X` up to three words without a place, `F` how many times as large, `Y` a sky; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 pub(super) const TURNS: &[(&str, &str)] = &[
     // Rows that are told from both ends.
@@ -156,6 +157,12 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("im|we wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A", "add D A"),
     ("P it is|are missing|lacking D A , you put please", "P put D A"),
     ("P it is|are missing|lacking D A", "P put D A"),
+    ("a splash|lick|coat|touch|dash of K paint|- wouldnt hurt|harm|kill A", "paint A K"),
+    ("a splash|lick|coat|touch|dash of K paint|- wouldnt go amiss on A", "paint A K"),
+    ("P , D A wouldnt go amiss|astray W", "P , add D A W"),
+    ("D A wouldnt go amiss|astray W", "add D A W"),
+    ("P , D A wouldnt hurt|harm W", "P , add D A W"),
+    ("D A wouldnt hurt|harm W", "add D A W"),
     ("P , D A wouldnt hurt|harm Q", "P , add D A"),
     ("P , D A wouldnt go amiss Q", "P , add D A"),
     ("D A wouldnt hurt|harm Q", "add D A"),
@@ -203,6 +210,7 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("the A is called|named B", "name the A B"),
     ("P in|on|over there Q", "P there Q"),
     ("i|we promised|owe A D B", "add D B"),
+    ("D A B is just|exactly|- what C needs|need|wants|want|lacks|lack|deserves|miss|misses|fancies", "add D A B"),
     ("D A is what i|we need|want|lack|miss|fancy B", "add D A B"),
     ("D A is what i|we need|want|lack|miss|fancy", "add D A"),
     ("D A is what im|were after|missing|lacking", "add D A"),
@@ -239,6 +247,67 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("let A turn|become|get B", "make A B"),
     ("D A would|might|could do B good Q", "add D A"),
     ("D A would|might|could suit|help|cheer|please B", "add D A"),
+    ("P change|switch|turn the colour|color of A from B to|into K", "P paint A K"),
+    ("P change|switch|turn the colour|color of A to|into K", "P paint A K"),
+    ("P paint|make|colour A some|another|a other|- different|- colour|color , say|perhaps|maybe|preferably K", "P paint A K"),
+    ("K would be|look|suit|do much|far|even|- better|nicer|prettier|lovelier|jollier|nice|good|great|lovely|it|him|her Q", "paint it K"),
+    ("how|what about K Q", "paint it K"),
+    ("A needs|need|deserves a|some new|fresh|- coat|lick|splash|layer of paint , make|paint it|them K", "paint A K"),
+    ("A could use|do a|some new|fresh|- coat|lick|splash|layer of paint , make|paint it|them K", "paint A K"),
+    ("A should|must|has to|- become|be|turn|get B , and so should|must|has|shall C", "A should be B , and C should be B"),
+    ("A should|must be B , and so should C", "A should be B , and C should be B"),
+    // Sizes without a verb.
+    ("F", "make it F"),
+    ("F please", "make it F"),
+    ("F , please", "make it F"),
+    ("F would|should|might be|do|look A", "make it F"),
+    // Who is given what.
+    ("O supply|provide|equip|furnish|present|treat A with|to D B", "O give A D B"),
+    // Names.
+    ("A shall|should|will|is|must to|- henceforth|- bear|carry|have|get|receive the name of|- B", "name A B"),
+    ("A from|as now|today on|- answers|listens to B", "name A B"),
+    ("A answers|listens to B", "name A B"),
+    // Turns.
+    ("invert|reverse the direction|heading|orientation of A", "turn A around"),
+    ("O set|stand|have N facing V", "O make N face V"),
+    ("O set|stand|have N looking at V", "O make N face V"),
+    // Where somebody waits.
+    ("O have|let|make A wait|stand|stay|sit|rest|pose W till|until B", "O move A W"),
+    ("O have|let|make A wait|stand|stay|sit|rest|pose W", "O move A W"),
+    ("P till|until im|i|were|we|hes|shes|theyre am|are|- back|done|ready|finished Q", "P"),
+    ("W with it|him|her|them", "move it W"),
+    ("P dont move|touch|remove|shift it|him|her|them , just|only|simply B", "P B"),
+    ("N to V , the B to the C", "move N to V , move the B to the C"),
+    ("unless A already , B", "unless A , B"),
+    ("A , one every|each M on both sides", "A every M on both sides"),
+    ("time for A , B", "B"),
+    ("sorry to|for A , but P", "P"),
+    ("i hate to A , but P", "P"),
+    // What is over.
+    ("there is|are D A too many Q", "remove A"),
+    ("theres D A too many Q", "remove A"),
+    ("A is|are past its|their best|prime Q", "remove A"),
+    ("A has|have overstayed its|his|her|their welcome", "remove A"),
+    // The sky.
+    ("a bit|little|drop of Y never hurt|harmed|killed B , so|and lets have|get some|one|it", "make it Y"),
+    ("Y would suit|become|befit A", "make it Y"),
+    ("put|set|turn|move the clock|time forward|back|ahead|on|- to A", "make it A"),
+    // Streets.
+    ("traffic|cars|vehicles|lorries must|may|should|can|are not|no|never longer|- to|- use|enter|drive|go|pass|run on|along|through|down|into|- A", "close A"),
+    ("P cars|traffic|lorries|trucks|vehicles on|in A , so|- ban|stop|forbid|prohibit them|it|that", "close A"),
+    ("P goes|runs|passes|leads|comes down|along|through|up A from B to C , so|please|- close|shut|block that|this|the bit|part|stretch|section|piece", "close A between B and C"),
+    ("unless somebody|someone|anybody|anyone has|- already|- did|done|closed|opened|do it already|yet|before|- , A", "A"),
+    // New things, told in passing.
+    ("P would be over the moon about|with|if D A", "add D A"),
+    ("P would|will be so|very|really|quite|- happy|glad|thrilled|delighted|grateful|pleased|chuffed|overjoyed about|with|for|at|to get|have|- D A", "add D A"),
+    ("wed|id be over the moon about|with|to have|get|- D A", "add D A"),
+    ("wed|id be so|very|really|- happy|glad|thrilled|delighted|pleased|chuffed|overjoyed about|with|for|at|to get|have|- D A", "add D A"),
+    ("A calls|call|cries|cry out|- for D B", "A needs D B"),
+    ("why is|are|isnt|arent there no|not|a|an|any|- A W", "add a A W"),
+    ("bring|put|breathe some|a bit|little|- of|- life|colour|cheer|fun in|into|to A , D B", "put D B in A"),
+    // How many.
+    ("how many A hang|stand|sit|live|work|walk|run|wait around|about|- here|there|around|- Q", "how many A are there"),
+    ("how many A did B leave|bring|drop|deliver|park|put Q", "how many A are there"),
     // What is asked.
     ("which|what A have|do we|you|i got|have Q , can|could you list|name|show them P", "list A Q"),
     ("which|what A have we|you got Q", "list A Q"),
@@ -251,6 +320,18 @@ pub(super) const TURNS: &[(&str, &str)] = &[
 /// As [`TURNS`], of what would be misunderstood otherwise.
 #[rustfmt::skip]
 pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
+    ("if there is|are not a|an|any X , P put|add|place|build|set|plant|make|install one B", "if there is no X , P put a X B"),
+    ("if there is|are no X , P put|add|place|build|set|plant|make|install one B", "if there is no X , P put a X B"),
+    ("if theres no X , P put|add|place|build|set|plant|make|install one B", "if there is no X , P put a X B"),
+    ("if A , and|which he|she|it|they|there|ive|weve|im|were|id|its|that B , C", "if A , C"),
+    ("in case it A , B", "if it A , B"),
+    ("in case there A , B", "if there A , B"),
+    ("if by any|some chance P", "if P"),
+    ("i|we|id want|need|like|love my|our A in the Y Q", "make it Y Q"),
+    ("first things first , P", "P"),
+    ("Y , Y , go away Q", "stop the Y"),
+    ("Y go away Q", "stop the Y"),
+    ("sort|fix|mend it|that|this out|- please|-", "fix it"),
     ("D A , thats what B needs|wants|lacks|deserves C it", "add D A C B"),
     ("P bigger|larger|taller|smaller , say|maybe|perhaps twice Q", "P twice Q"),
     ("P bigger|larger|taller|smaller , say|maybe|perhaps half Q", "P half Q"),
@@ -272,5 +353,5 @@ pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
 ];
 /// What is said by the way, in the words of who asks kindly.
 #[rustfmt::skip]
-pub(super) const ASIDES: &Phrases = &Phrases::of(&["come to think of it", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
+pub(super) const ASIDES: &Phrases = &Phrases::of(&["come to think of it", "before i forget", "before i go", "if memory serves", "for instance", "for example", "if i remember rightly", "if im not mistaken", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
     "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);
