@@ -9,7 +9,7 @@ use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{is_animate, longest_phrase};
 use super::super::phrases::Phrases;
-use super::forms::{word_at, words_at};
+use super::forms::word_at;
 use super::parse::Reader;
 use super::parts::Telling;
 use super::told::ORDERS_ANYTHING;
@@ -27,12 +27,9 @@ const SOMEBODY: &[&str] = &["him", "her", "he", "she"];
 const SOMETHING: &[&str] = &["it", "that", "this"];
 /// Words for several.
 const SEVERAL: &[&str] = &["them", "those", "they", "both"];
-/// What stands behind one of these is no pronoun: "his side" is a side of his.
-const SIDES: &[&str] = &["side", "left", "right", "front", "feet"];
-
 /// What may stand for what.
 struct Told {
-    somebody: Option<Vec<Lexeme>>,
+    somebody: Vec<Vec<Lexeme>>,
     something: Option<Vec<Lexeme>>,
     all: Vec<Vec<Lexeme>>,
     noun: Option<Vec<Lexeme>>,
@@ -74,7 +71,7 @@ impl Reader<'_> {
         if asks || self.orders_here(0, mark) || !tells {
             return None;
         }
-        let mut told = Told { somebody: None, something: None, all: Vec::new(), noun: None };
+        let mut told = Told { somebody: Vec::new(), something: None, all: Vec::new(), noun: None };
         let mut at = 0;
         while at < mark {
             let Some((thing, after)) = self.named_at(at, mark) else {
@@ -89,8 +86,11 @@ impl Reader<'_> {
                 at = after;
                 continue;
             }
-            let kind = if is_somebody { &mut told.somebody } else { &mut told.something };
-            kind.get_or_insert_with(|| said.clone());
+            if is_somebody {
+                told.somebody.push(said.clone());
+            } else {
+                told.something.get_or_insert_with(|| said.clone());
+            }
             told.all.push(said);
             at = after;
         }
@@ -121,20 +121,18 @@ impl Told {
         let mut plain = Vec::with_capacity(order.len() + 4);
         let mut changed = false;
         let mut at = 0;
+        let mut pronouns: Vec<&Token> = Vec::new();
         while at < order.len() {
             let place = &order[at];
-            let his = is(at, &["his", "her"]) && is(at + 1, SIDES);
-            let for_one = if his && is(at + 1, &["side"]) {
-                // "By his side" is next to him.
-                let before = plain.pop()?;
-                let who = self.somebody.as_ref()?;
-                plain.extend(words_at(&before, "next to"));
-                at += 1;
-                who
-            } else if is(at, SOMEBODY) {
-                self.somebody.as_ref()?
+            let for_one = if is(at, SOMEBODY) {
+                // "Bo is facing away from Ada, turn him towards her": each pronoun is of one of them.
+                let rank = pronouns.iter().position(|known| **known == place.token).unwrap_or_else(|| {
+                    pronouns.push(&place.token);
+                    pronouns.len() - 1
+                });
+                self.somebody.get(rank).or(self.somebody.first())?
             } else if is(at, SOMETHING) && self.is_alone(order, at) {
-                self.something.as_ref().or(self.somebody.as_ref())?
+                self.something.as_ref().or(self.somebody.first())?
             } else if is(at, SEVERAL) && self.is_alone(order, at) {
                 let [one, other] = &self.all[..] else { return None };
                 plain.extend(one.iter().cloned());

@@ -295,11 +295,17 @@ fn wishes_of(
     });
     let is_known = |wish: &Wish| is_known(wish, &is_new, speaks_of_self);
     let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
+    #[rustfmt::skip]
+    const PLACES: &[&str] = &["next to", "in front of", "behind", "beside", "to the left of", "to the right of", "left of", "right of", "near", "close to", "opposite"];
+    let begins_with_place = super::lexicon::longest_phrase(reader.lexemes, PLACES).is_some();
     // What later wishes are about may be made by earlier ones.
     let is_there = |wishes: &[Vec<Wish>]| {
         let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
         let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
+        let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
         !wishes.first().is_some_and(|readings| readings.iter().all(missing))
+            // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
+            && !(begins_with_place && wishes.iter().flatten().any(is_nowhere))
     };
     let plain = Reader { ..reader }.sentence();
     if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
@@ -354,7 +360,10 @@ fn wishes_of(
     if let Some(answer) = answer.filter(|_| plain.is_err()) {
         return answer;
     }
+    // What is told of a place first is not put anywhere else.
+    let nowhere = |wishes: &[Vec<Wish>]| begins_with_place && wishes.iter().flatten().any(is_nowhere);
     match (plain, in_parts) {
+        (Ok(wishes), _) if nowhere(&wishes) => Err(reader.not_understood("say where it is to go")),
         (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
             let unknown = |telling| reader.in_parts(&|_| true, &|_| true, telling);

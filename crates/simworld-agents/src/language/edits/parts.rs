@@ -144,9 +144,21 @@ impl Reader<'_> {
                     super::shared::on_street(before, wish, with);
                 }
                 let spoken_of = self.in_order_of(wish, spoken_of);
+                // "Rex and Ben belong together, put Rex beside him": of the other one.
+                let own: Vec<Target> = wish.objects_mut().iter().map(|one| one.target.clone()).collect();
+                let others: Vec<Reference> =
+                    spoken_of.iter().filter(|one| !own.contains(&one.target)).cloned().collect();
+                let spoken_of = if others.is_empty() { spoken_of } else { others };
                 wish.is_about(&spoken_of);
                 wish.stands(&said.place);
             });
+            let to_itself = |wish: &Wish| {
+                matches!(wish, Wish::Face { what, towards }
+                    if matches!(&what[..], [only] if only.target == towards.target))
+            };
+            if wishes.iter().flatten().any(to_itself) {
+                continue;
+            }
             let now = Said {
                 wish: wishes.last().and_then(|readings| readings.first().cloned()),
                 noun: self.last_noun(from, end).or_else(|| said.noun.clone()),
@@ -237,6 +249,21 @@ impl Reader<'_> {
     fn hides_wish(&self, said: &Said, (from, end): (usize, usize), is_known: &dyn Fn(&Wish) -> bool) -> bool {
         const FOR: &Phrases = &Phrases::of(&["for the", "for my", "for our", "for a", "for this", "while"]);
         let is_why = longest_phrase(&self.lexemes[from..end], FOR).is_some();
+        // "Since it's the open day I need three flagpoles near the clinic".
+        const BECAUSE: &Phrases = &Phrases::of(&["since", "because", "as", "now that", "because of"]);
+        let is_reason = longest_phrase(&self.lexemes[from..end], BECAUSE).is_some();
+        let is_there = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if !at.is_empty());
+        let wants_there = |at: usize| {
+            is_reason
+                && at > from + 2
+                && matches!(self.word(at), Some("i" | "we" | "id" | "wed"))
+                && Reader { at, ..self.up_to(end) }
+                    .wish(end)
+                    .is_ok_and(|wishes| wishes.iter().flatten().all(|wish| is_there(wish) && is_known(wish)))
+        };
+        if (from..end).any(wants_there) {
+            return true;
+        }
         (from..end).any(|at| {
             let may = at == from
                 || is_mark(&self.lexemes[at - 1])
@@ -272,9 +299,9 @@ impl Reader<'_> {
     }
 
     /// "..., he'll fetch it later, and the crate behind the shop": a certain thing and its place behind "and", which no remark holds.
-    fn goes_on_within(&self, from: usize, end: usize) -> bool {
+    pub(super) fn goes_on_within(&self, from: usize, end: usize) -> bool {
         (from + 1..end.saturating_sub(3)).any(|at| {
-            if !is_mark(&self.lexemes[at]) || self.word(at + 1) != Some("and") || !self.is_definite(at + 2) {
+            if !is_mark(&self.lexemes[at]) || self.word(at + 1) != Some("and") || !self.is_certain(at + 2) {
                 return false;
             }
             let mut parser = self.parser(at + 2, end);

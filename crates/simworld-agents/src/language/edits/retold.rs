@@ -377,10 +377,15 @@ fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
     match capital {
         "K" => whole(longest(words, PAINTS).map(|(_, count)| count)),
         "F" => whole(longest(words, &super::words::FACTORS).map(|(_, count)| count)),
-        "Y" => whole(longest(words, &super::words::SKIES).map(|(_, count)| count)),
+        "Y" | "Z" => {
+            whole(longest(words, &super::words::SKIES).map(|(_, count)| count))
+                || whole(super::sky::hour(words).map(|(_, count)| count))
+        }
         "W" => longest(words, &super::words::WAYS).is_some(),
         "N" | "V" => {
-            longest_phrase(words, &["the", "that", "this", "my", "our", "these", "those", "both"]).is_some()
+            words.len() > 1
+                && longest_phrase(words, &["the", "that", "this", "my", "our", "these", "those", "both"])
+                    .is_some()
         }
         "X" => !(0..words.len()).any(|at| longest(&words[at..], &super::words::WAYS).is_some()),
         _ => true,

@@ -77,6 +77,7 @@ impl Reader<'_> {
                 || self.tells_of_what_is_here(start, end, leads)
         };
         ends && words.len() > 1
+            && !self.goes_on_within(from, end)
             // "Do what a good host would do" is an order, though nobody knows which.
             && !(start..end).any(|at| {
                 (at == start || is_mark(&self.lexemes[at - 1]))
