@@ -74,6 +74,12 @@ impl Reader<'_> {
         let mut told = Told { somebody: Vec::new(), something: None, all: Vec::new(), noun: None };
         let mut at = 0;
         while at < mark {
+            // "Fay's legs are tired": of Fay.
+            if let Some(owner) = self.owner_at(at) {
+                told.somebody.push(owner);
+                at += 2;
+                continue;
+            }
             let Some((thing, after)) = self.named_at(at, mark) else {
                 at += 1;
                 continue;
@@ -98,6 +104,17 @@ impl Reader<'_> {
         let noun = self.noun_lacking(0, mark).or_else(|| self.asset_in(0, mark));
         told.noun = noun.filter(|noun| !super::follow::is_crowd(noun));
         Some(told)
+    }
+
+    /// Somebody whose something is named here: "Fay's".
+    fn owner_at(&self, at: usize) -> Option<Vec<Lexeme>> {
+        let lexeme = &self.lexemes[at];
+        let written = self.words.get(lexeme.start..lexeme.end)?;
+        let is_owner = written.ends_with("'s") || written.ends_with("’s");
+        let stem = self.word(at)?.strip_suffix('s').filter(|_| is_owner)?;
+        let owner = vec![word_at(lexeme, stem)];
+        let (ids, _) = self.names.exact(&owner)?;
+        self.is_of_somebody(&Reference::to(Target::Named(ids), stem.to_owned())).then_some(owner)
     }
 
     /// Whether it is a person, a dog or a robot that is named.
@@ -131,9 +148,9 @@ impl Told {
                     pronouns.len() - 1
                 });
                 self.somebody.get(rank).or(self.somebody.first())?
-            } else if is(at, SOMETHING) && self.is_alone(order, at) {
+            } else if is(at, SOMETHING) && Self::is_alone(order, at) {
                 self.something.as_ref().or(self.somebody.first())?
-            } else if is(at, SEVERAL) && self.is_alone(order, at) {
+            } else if is(at, SEVERAL) && Self::is_alone(order, at) {
                 let [one, other] = &self.all[..] else { return None };
                 plain.extend(one.iter().cloned());
                 plain.push(word_at(place, "and"));
@@ -157,7 +174,7 @@ impl Told {
     }
 
     /// Whether a word stands for a thing, and says not which: "that bench" does.
-    fn is_alone(&self, order: &[Lexeme], at: usize) -> bool {
+    fn is_alone(order: &[Lexeme], at: usize) -> bool {
         order.get(at + 1).is_none_or(|next| {
             is_mark(next)
                 || super::super::lexicon::category(std::slice::from_ref(next)).is_none()

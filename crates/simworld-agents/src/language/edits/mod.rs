@@ -30,6 +30,7 @@ mod idle;
 mod make;
 mod measures;
 mod memo;
+mod mistaken;
 mod naming;
 mod nearer;
 mod noun;
@@ -64,6 +65,7 @@ mod slips;
 mod spoken;
 mod standing;
 mod stated;
+mod stood;
 mod supposed;
 mod things;
 mod told;
@@ -165,6 +167,9 @@ pub(crate) fn read(
     let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
     let numbered = reader.with_number();
     let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
+    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+    let stood = reader.with_old_places(&finder);
+    let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
     if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
         return Err(reader.not_understood("say of what every second one is meant").into());
@@ -172,7 +177,6 @@ pub(crate) fn read(
     dress_new(&mut wishes);
     gone_once(&mut wishes);
     made_once(&mut wishes);
-    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     paint_at_once(&mut wishes, &finder);
     Ok(Reading { words: words.to_owned(), wishes })
 }
@@ -241,7 +245,12 @@ fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
         // "Elm Street has to be a play street: close it".
         let is_same_passage = match (wishes[at - 1].first(), wishes[at].as_slice()) {
             (Some(Wish::Passage { passage: before, .. }), [Wish::Passage { which, passage }]) => {
-                before == passage && which.iter().all(|street| *street == wish::StreetRef::It)
+                let is_it = |street: &wish::StreetRef| match street {
+                    wish::StreetRef::It => true,
+                    wish::StreetRef::Thing(thing) => says::is_it(thing),
+                    _ => false,
+                };
+                before == passage && which.iter().all(is_it)
             }
             _ => false,
         };
@@ -289,23 +298,23 @@ fn wishes_of(
     stock: &Stock,
     focus: &Focus,
 ) -> Result<Vec<Vec<Wish>>, PlanError> {
+    #[rustfmt::skip]
+    const PLACES: &[&str] = &["next to", "in front of", "behind", "beside", "to the left of", "to the right of", "left of", "right of", "near", "close to", "opposite"];
     let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
     let speaks_of_self = reader.lexemes.iter().any(|lexeme| {
         matches!(&lexeme.token, super::lexer::Token::Word(word) if ["me", "myself", "i", "us", "you", "yourself"].contains(&word.as_str()))
     });
     let is_known = |wish: &Wish| is_known(wish, &is_new, speaks_of_self);
     let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
-    #[rustfmt::skip]
-    const PLACES: &[&str] = &["next to", "in front of", "behind", "beside", "to the left of", "to the right of", "left of", "right of", "near", "close to", "opposite"];
     let begins_with_place = super::lexicon::longest_phrase(reader.lexemes, PLACES).is_some();
     // What later wishes are about may be made by earlier ones.
     let is_there = |wishes: &[Vec<Wish>]| {
         let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
         let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
         let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
-        !wishes.first().is_some_and(|readings| readings.iter().all(missing))
-            // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
-            && !(begins_with_place && wishes.iter().flatten().any(is_nowhere))
+        // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
+        let is_lost = begins_with_place && wishes.iter().flatten().any(is_nowhere);
+        !is_lost && !wishes.first().is_some_and(|readings| readings.iter().all(missing))
     };
     let plain = Reader { ..reader }.sentence();
     if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {

@@ -10,7 +10,7 @@ use super::super::numbers;
 use super::super::phrases::Phrases;
 use super::follow::species;
 use super::forms::{word_at, words_at};
-use super::words::{VERBS, WAYS};
+use super::words::{VERBS, Verb, WAYS};
 
 /// A clause between two commas is no longer than that.
 const LONGEST_CLAUSE: usize = 11;
@@ -32,13 +32,17 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
     not_there(lexemes);
     named_twice(lexemes);
     exclaimed(words, lexemes);
-    needed_for(words, lexemes);
+    needed_for(lexemes);
     beside_somebody(lexemes);
     nearest_of_place(lexemes);
     both_of_them(lexemes);
+    sellers(lexemes);
     let is = |lexeme: &Lexeme, word: &str| matches!(&lexeme.token, Token::Word(own) if own == word);
     let mut at = 1;
     while at + 1 < lexemes.len() {
+        if is(&lexemes[at], "too") && is(&lexemes[at - 1], "next") && is_begun(&lexemes[at + 1]) {
+            lexemes[at] = word_at(&lexemes[at].clone(), "to");
+        }
         // "Remove the bins, except for the one by the stop".
         if at > 1 && lexemes[at].token == Token::Comma && longest_phrase(&lexemes[at + 1..], EXCEPT).is_some()
         {
@@ -281,36 +285,61 @@ fn exclaimed(words: &str, lexemes: &mut Vec<Lexeme>) {
     }
 }
 
-/// "The robot needs a charger: a charging point two metres west of it" asks for one thing, by its place.
-fn needed_for(words: &str, lexemes: &mut Vec<Lexeme>) {
-    const NEEDS: &Phrases = &Phrases::of(&[
-        "needs a",
-        "needs an",
-        "wants a",
-        "wants an",
-        "could use a",
-        "could do with a",
-        "requires a",
-        "is missing a",
-        "lacks a",
-    ]);
-    let colon = lexemes.iter().position(|lexeme| {
-        is_mark(lexeme) && words.get(lexeme.start..).is_some_and(|mark| mark.starts_with(':'))
-    });
-    let Some(colon) = colon else { return };
-    let needs = (1..colon).find(|at| longest_phrase(&lexemes[*at..colon], NEEDS).is_some());
-    let Some(needs) = needs.filter(|needs| (0..*needs).all(|at| !is_mark(&lexemes[at]))) else { return };
-    let is_new = longest_phrase(&lexemes[colon + 1..], &["a", "an", "one"]).is_some()
-        || numbers::count(&lexemes[colon + 1..]).is_some();
-    let it = (colon + 2..lexemes.len()).find(|at| {
+/// "The robot needs a charger: a charging point two metres west of it", "Dmitri deserves a seat, so stick a chair next to him": one thing is
+/// asked for, by its place.
+fn needed_for(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const NEEDS: &Phrases = &Phrases::of(&["needs a", "needs an", "wants a", "wants an", "could use a", "could do with a", "requires a", "is missing a", "lacks a", "deserves a", "deserves an", "wants something", "needs something", "wants somewhere", "needs somewhere", "deserves something"]);
+    let Some(mark) = lexemes.iter().position(is_mark) else { return };
+    let is_way = |at: usize| longest(&lexemes[at..], &WAYS);
+    let needs = (1..mark).find(|at| longest_phrase(&lexemes[*at..mark], NEEDS).is_some());
+    let Some(needs) = needs.filter(|needs| !(needs + 2..mark).any(|at| is_way(at).is_some())) else { return };
+    let tail =
+        mark + 1 + longest_phrase(&lexemes[mark + 1..], &["so", "so please", "please", "then"]).unwrap_or(0);
+    let Some(rest) = lexemes.get(tail..).filter(|rest| !rest.is_empty()) else { return };
+    let is_new = longest_phrase(rest, &["a", "an"]).is_some()
+        || numbers::count(rest).is_some()
+        || longest(rest, &VERBS).is_some_and(|(verb, _)| matches!(verb, Verb::Add | Verb::Put));
+    let it = (tail + 1..lexemes.len()).find(|at| {
         matches!(word(lexemes, *at), "it" | "him" | "her" | "them")
             && (at.saturating_sub(4)..*at)
-                .any(|from| longest(&lexemes[from..], &WAYS).is_some_and(|(_, count)| from + count == *at))
+                .any(|from| is_way(from).is_some_and(|(_, count)| from + count == *at))
     });
-    let Some(it) = it.filter(|_| is_new) else { return };
+    let says_one = (tail..lexemes.len()).any(|at| matches!(word(lexemes, at), "one" | "another"));
+    let Some(it) = it.filter(|_| is_new && !says_one) else { return };
     let whose = lexemes[..needs].to_vec();
     lexemes.splice(it..=it, whose);
-    lexemes.drain(..=colon);
+    lexemes.drain(..tail);
+}
+
+/// Whether a thing is named from here on.
+fn is_begun(lexeme: &Lexeme) -> bool {
+    matches!(&lexeme.token, Token::Word(word) if ["the", "a", "an", "my", "our", "that", "this"].contains(&word.as_str()))
+}
+
+/// "The place that sells cake" is a building that does, and "where one can buy" is where you can.
+fn sellers(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const SELLS: &Phrases = &Phrases::of(&["that sells", "which sells", "selling", "where they sell", "where you can buy", "where you can get", "where you get", "where you buy"]);
+    #[rustfmt::skip]
+    const BUY: &Phrases = &Phrases::of(&["where one can buy", "where one can get", "where people can buy", "where people buy", "where i can buy", "where we can buy", "where you buy", "where one buys", "where you can get", "where i buy", "where we buy", "where i get", "where you get"]);
+    let mut at = 1;
+    while at + 1 < lexemes.len() {
+        let behind = &lexemes[at + 1..];
+        if word(lexemes, at) == "place"
+            && matches!(word(lexemes, at - 1), "the" | "that" | "this")
+            && (longest_phrase(behind, SELLS).is_some() || longest_phrase(behind, BUY).is_some())
+        {
+            lexemes[at] = word_at(&lexemes[at].clone(), "building");
+        }
+        let noun = matches!(word(lexemes, at - 1), "building" | "shop" | "store" | "house" | "one");
+        if let Some(words) = longest_phrase(&lexemes[at..], BUY).filter(|_| noun) {
+            let place = lexemes[at].clone();
+            let plain: Vec<Lexeme> = words_at(&place, "where you can buy").collect();
+            lexemes.splice(at..at + words, plain);
+        }
+        at += 1;
+    }
 }
 
 /// "By his side" is next to him.

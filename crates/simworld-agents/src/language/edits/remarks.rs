@@ -77,7 +77,8 @@ impl Reader<'_> {
         if self.orders_within(from, end) || self.goes_on_within(from, end) {
             return false;
         }
-        if self.is_call(from, end)
+        if self.is_enough(from, end)
+            || self.is_call(from, end)
             || self.is_named_alone(from, end)
             || self.dislikes(from, end)
             || self.praises(from, end)

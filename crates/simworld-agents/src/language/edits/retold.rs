@@ -303,7 +303,7 @@ fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<Lexeme>> {
         part.len() == 1 && !["a", "i"].contains(part)
             || part.split('|').any(|word| word == "-" || is_said(&word))
     };
-    if !pattern.iter().all(|part| may_fit(part)) {
+    if !pattern.iter().all(may_fit) {
         return None;
     }
     let mut bound = Vec::new();
@@ -381,6 +381,7 @@ fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
             whole(longest(words, &super::words::SKIES).map(|(_, count)| count))
                 || whole(super::sky::hour(words).map(|(_, count)| count))
         }
+        "U" => matches!(words, [Lexeme { token: Token::Word(word), .. }] if word.ends_with("est")),
         "W" => longest(words, &super::words::WAYS).is_some(),
         "N" | "V" => {
             words.len() > 1

@@ -83,6 +83,8 @@ const USUAL: &[(&str, &str)] = &[
     ("tabel", "table"),
     ("tabels", "tables"),
     ("neer", "near"),
+    ("menny", "many"),
+    ("meny", "many"),
     ("wether", "weather"),
     ("whereabouts", "where"),
     ("nere", "near"),
@@ -150,6 +152,17 @@ pub(super) fn correct(
                 _ => false,
             };
         if is_tow {
+            continue;
+        }
+        // "Harbor Road" where the road is called Harbour Road.
+        let british = word.strip_suffix("or").map(|stem| format!("{stem}our"));
+        if let Some(british) = british
+            && !names.has_word(word)
+            && !streets.has_word(word)
+            && (names.has_word(&british) || streets.has_word(&british))
+        {
+            lexemes[here].token = Token::Word(british);
+            lexemes[here].lemma = None;
             continue;
         }
         let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());

@@ -66,7 +66,7 @@ impl Reader<'_> {
         let leads = self.leads_to_order(end);
         let may_change = || {
             if leads {
-                self.sets_a_condition(start, end) || self.wishes_for_new(start, end)
+                self.sets_a_condition(start, end) || self.wishes_for_known(start, end)
             } else {
                 self.may_take_back(start, end) || self.wishes_for(start, end)
             }
@@ -154,6 +154,20 @@ impl Reader<'_> {
                 numbers::count(rest).is_some() || longest_phrase(rest, &["a", "an", "some", "more"]).is_some()
             })
         })
+    }
+
+    /// As [`Self::wishes_for_new`], of something that somebody has: nobody has "a home of his own".
+    fn wishes_for_known(&self, from: usize, end: usize) -> bool {
+        let article = (from + 1..end).rev().find(|at| matches!(self.word(*at), Some("a" | "an")));
+        let is_unknown = article.is_some_and(|at| {
+            let noun = &self.lexemes[at + 1..end];
+            // "A home of his own".
+            noun.iter().any(|word| word.token == Token::Word("own".to_owned()))
+                || !(0..noun.len().min(3)).any(|at| {
+                    category(&noun[at..]).is_some() || self.names.asset_words(&noun[at..]).is_some()
+                })
+        });
+        self.wishes_for_new(from, end) && !is_unknown
     }
 
     pub(super) fn is_read_as_wish(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {

@@ -13,7 +13,7 @@ pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
 /// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number, `K` a colour, `W` a place, `N` and `V`
-/// certain things, `X` up to three words without a place, `F` how many times as large, `Y` a sky; `a|b` is either word, and `-` none.
+/// certain things, `X` up to three words without a place, `F` how many times as large, `Y` a sky, `U` a superlative; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 pub(super) const TURNS: &[(&str, &str)] = &[
     // Rows that are told from both ends.
@@ -150,7 +150,7 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("A says|reckons|thinks|insists|suggests|demands that|- the B belongs|goes C", "the B should go C"),
     ("A says|reckons|thinks|insists|suggests|demands that|- D B belongs|goes C", "add D B C"),
     // New things, told by other verbs.
-    ("O hide|store|raise|deposit|unload|lodge|tie|chain|bolt|dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "O put D A"),
+    ("O hide|store|raise|land|deposit|unload|lodge|tie|chain|bolt|dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "O put D A"),
     ("O put|place|add|set|build|light|plant|dig|install|park|pitch me|us|them D A", "O put D A"),
     ("i am|was wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
     ("im wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
@@ -281,6 +281,29 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("unless A already , B", "unless A , B"),
     ("A , one every|each M on both sides", "A every M on both sides"),
     ("time for A , B", "B"),
+    ("say , how many P", "how many P"),
+    ("P when the Y rolls|comes|sets|falls in|down|- , lets have it|some", "make it Y"),
+    ("we|i would be glad|happy|pleased if there|- stands|stood|was|were one more A W", "add a A W"),
+    ("my A she|he wish|wishes|want|wants to have|see|get D B W", "add D B W"),
+    ("A can|may|should drive|go|clear off|away for good", "remove A"),
+    ("i|we would|- like|want that A disappears|vanishes|goes|leaves", "remove A"),
+    ("let the sun come|shine back|out|again|- , P", "make it sunny"),
+    ("A reckon|reckons|think|thinks|say|says|feel N would look|be B in K", "paint N K"),
+    ("N i see|picture|imagine bigger|larger , F", "make N F"),
+    ("nobody|noone misses|miss N if it goes|went|disappears , P", "remove N"),
+    ("N is a|- bit|little|rather|- A , F would be|do B", "make N F"),
+    ("can|could N please|- have|get D A out|at the front", "put D A in front of N"),
+    ("no A needed|wanted|required here|there any|no more|longer , P", "remove the A"),
+    ("O move|bring|shift|take|push|get|drive|drag A over|closer|nearer|across|up|- to N , right|just|directly|- W it|him|her", "O move A W N"),
+    ("i|we want|wish|like that D A is|are|be|stands|waits waiting|standing|parked|sitting|- W", "put D A W"),
+    ("P make that A is|are looking|facing|turned to|at|towards|- B", "make A face B"),
+    ("P make that A looks|faces to|at|towards|- the N", "make A face the N"),
+    ("P make that A looks|look|faces|face|is|are looking|facing|- in|into|- the opposite|other direction|way", "turn A around"),
+    ("O line up D A from B to C", "O put D A evenly between B and C"),
+    ("which|what A sell|sells|offer|offers B", "list the A that sell B"),
+    ("what does|do A sell|offer|have", "describe A"),
+    ("P keep all|- the|- cars|traffic|vehicles off|out|away of|from|- A", "close A"),
+    ("how many A grow|exist|remain|are in|on|around the|our|this old|whole|little|- town|campus|quarter|harbour|city|place|village Q", "how many A are there"),
     ("K", "paint it K"),
     ("K please", "paint it K"),
     ("K , please", "paint it K"),
@@ -360,6 +383,9 @@ pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
     ("if theres|there no|isnt any|a|- A yet|here|there , put|add|place|build one B", "if there is no A , put a A B"),
     ("A theres just|still|- enough|plenty|- of|- room|space for D B , so|and put|add|place|stand one|it there", "add D B A"),
     ("A there is just|still|- enough|plenty|- of|- room|space for D B , so|and put|add|place|stand one|it there", "add D B A"),
+    ("where N is|stands now|- i|we want|need|would|like have|like|- D A instead|- Q", "replace N with D A"),
+    ("of N remove|delete|fell|scrap|ditch the U", "remove the U of N"),
+    ("of N paint the U K", "paint the U of N K"),
     ("in case theres|there is|are|- no A , P", "if there is no A , P"),
     ("in case theres a|an A , P", "if there is a A , P"),
     ("should there be no A , P", "if there is no A , P"),
