@@ -3,6 +3,7 @@
 
 use simworld_core::seam::PlanError;
 
+use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
@@ -21,6 +22,77 @@ const ROOM: &Phrases = &Phrases::of(&["if there is room", "if there is space", "
     "if theres any space", "if there is any space", "as long as there is room", "provided there is room", "space permitting", "room permitting", "provided theres room", "as long as theres room"]);
 
 impl Reader<'_> {
+    /// "Add one": of what was just asked for, and where.
+    pub(super) fn one_of_those(&mut self, what: &Reference, end: usize) -> Option<Wish> {
+        let stop = self.before_politeness(self.at, end);
+        let removes = longest_phrase(
+            self.rest(stop),
+            &[
+                "remove one",
+                "delete one",
+                "take one away",
+                "remove one of them",
+                "get rid of one",
+                "take away one",
+                "remove any one of them",
+            ],
+        );
+        if removes.is_some_and(|words| self.at + words == stop) {
+            self.at = end;
+            let one = Reference { count: Count::Exactly(1), indefinite: true, ..what.clone() };
+            return Some(Wish::Remove { what: vec![one] });
+        }
+        let adds = longest_phrase(
+            self.rest(stop),
+            &["add", "put", "place", "build", "make", "create", "plant", "set up", "add me"],
+        )?;
+        let words = longest_phrase(
+            &self.lexemes[self.at + adds..stop],
+            &["one", "one there", "one here", "a new one"],
+        )?;
+        // "Put one in": where one was looked for.
+        let last = self.at + adds + words;
+        let is_particle = last + 1 == stop && matches!(self.word(last), Some("in" | "up" | "down" | "out"));
+        let words = words + usize::from(is_particle);
+        let Target::Any(class) = &what.target else { return None };
+        // "If there is no picnic table, add one": a picnic table, and no table.
+        let said = super::super::lexer::lex(&what.text.to_lowercase());
+        let article = longest_phrase(&said, &["a", "an", "any", "no", "the"]).unwrap_or(0);
+        let asset = self.names.asset_words(&said[article..]).filter(|words| *words > 1);
+        let asset: Option<Vec<String>> = asset.map(|words| {
+            said[article..article + words]
+                .iter()
+                .filter_map(|lexeme| match &lexeme.token {
+                    Token::Word(word) => Some(word.clone()),
+                    _ => None,
+                })
+                .collect()
+        });
+        let noun = asset.unwrap_or_else(|| class.words[0].split(' ').map(str::to_owned).collect());
+        let from = self.at + adds + words;
+        let at = if from < stop {
+            let mut reader = Reader { at: from, ..*self };
+            reader.places(stop).ok().filter(|_| reader.at >= stop)?
+        } else {
+            let Some(super::super::clause::Stands::To(relation, anchor)) = &what.relation else {
+                return None;
+            };
+            vec![super::wish::Where::To(*relation, super::wish::Anchor::Thing((**anchor).clone()))]
+        };
+        let thing = super::wish::NewThing {
+            text: noun.join(" "),
+            words: noun,
+            count: 1,
+            many: false,
+            paint: what.traits.paint,
+            scale: 1.0,
+            height: None,
+            name: None,
+        };
+        self.at = end;
+        Some(Wish::Add { things: vec![thing], at })
+    }
+
     /// Whether the wish that begins here stands on a condition that is told first.
     pub(super) fn begins_condition(&self) -> bool {
         longest_phrase(&self.lexemes[self.at..], IF).is_some()

@@ -225,7 +225,14 @@ impl Reader<'_> {
             let order: Vec<Lexeme> = words_at(place, verb).chain(words.iter().cloned()).collect();
             self.read_plainly(&order)
         };
-        let wishes = verbs.iter().find_map(read)?;
+        let mut wishes = verbs.iter().find_map(read)?;
+        // "The white car goes behind the clinic, the black one in front of it": of the clinic.
+        if let Wish::Move { at, .. } = last
+            && let Some(anchor @ Anchor::Thing(_)) = at.iter().find_map(Where::anchor)
+        {
+            let its = wishes.iter_mut().flatten().flat_map(Wish::places_mut).filter_map(Where::anchor_mut);
+            its.filter(|own| own.is_it()).for_each(|own| *own = anchor.clone());
+        }
         // The verb that was left out is the same one.
         let same = |wish: &Wish| {
             std::mem::discriminant(wish) == std::mem::discriminant(last)

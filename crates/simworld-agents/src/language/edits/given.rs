@@ -377,63 +377,6 @@ impl Reader<'_> {
         (cut + said + words + behind.unwrap_or(0) == end).then_some((what, !not))
     }
 
-    /// "Add one": of what was just asked for, and where.
-    fn one_of_those(&mut self, what: &Reference, end: usize) -> Option<Wish> {
-        let stop = self.before_politeness(self.at, end);
-        let removes = longest_phrase(
-            self.rest(stop),
-            &[
-                "remove one",
-                "delete one",
-                "take one away",
-                "remove one of them",
-                "get rid of one",
-                "take away one",
-                "remove any one of them",
-            ],
-        );
-        if removes.is_some_and(|words| self.at + words == stop) {
-            self.at = end;
-            let one = Reference { count: Count::Exactly(1), indefinite: true, ..what.clone() };
-            return Some(Wish::Remove { what: vec![one] });
-        }
-        let adds = longest_phrase(
-            self.rest(stop),
-            &["add", "put", "place", "build", "make", "create", "plant", "set up", "add me"],
-        )?;
-        let words = longest_phrase(
-            &self.lexemes[self.at + adds..stop],
-            &["one", "one there", "one here", "a new one"],
-        )?;
-        // "Put one in": where one was looked for.
-        let last = self.at + adds + words;
-        let is_particle = last + 1 == stop && matches!(self.word(last), Some("in" | "up" | "down" | "out"));
-        let words = words + usize::from(is_particle);
-        let Target::Any(class) = &what.target else { return None };
-        let from = self.at + adds + words;
-        let at = if from < stop {
-            let mut reader = Reader { at: from, ..*self };
-            reader.places(stop).ok().filter(|_| reader.at >= stop)?
-        } else {
-            let Some(super::super::clause::Stands::To(relation, anchor)) = &what.relation else {
-                return None;
-            };
-            vec![super::wish::Where::To(*relation, super::wish::Anchor::Thing((**anchor).clone()))]
-        };
-        let thing = super::wish::NewThing {
-            words: class.words[0].split(' ').map(str::to_owned).collect(),
-            count: 1,
-            many: false,
-            paint: what.traits.paint,
-            scale: 1.0,
-            height: None,
-            name: None,
-            text: class.words[0].to_owned(),
-        };
-        self.at = end;
-        Some(Wish::Add { things: vec![thing], at })
-    }
-
     /// "Except the red one", behind a thing.
     pub(super) fn except(&self, parser: &mut Parser<'_>, what: &mut Reference) {
         let start = parser.at;
@@ -450,7 +393,11 @@ impl Reader<'_> {
         }
         if self.view.streets.is_some() && plural && parser.eat_any(EXCEPT) {
             parser.class = if let Target::Any(class) = &what.target { Some(class) } else { None };
-            if let Ok(except) = parser.reference(1) {
+            if let Ok(mut except) = parser.reference(1) {
+                // "All oaks except the tallest": of the oaks.
+                if except.target == what.target && except.traits.sort.is_none() {
+                    except.traits.sort.clone_from(&what.traits.sort);
+                }
                 what.except = Some(Box::new(except));
                 return;
             }

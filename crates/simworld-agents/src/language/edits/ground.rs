@@ -17,7 +17,9 @@ use crate::editing::{Edit, EditError, Line, Sides, Spacing, Stand};
 /// So many of a kind along something stand in a row.
 pub(super) const ROW: u32 = 3;
 /// So many around something stand in a circle, if it is no wider than this, m.
-const RING: (u32, f64) = (4, 8.0);
+const RING: (u32, f64) = (4, 60.0);
+/// Around what is no wider than this, m, things stand in a circle though nobody says how many.
+const SMALL_RING: f64 = 8.0;
 /// So many are a circle around a thing of which nobody says how many it has.
 const RING_OF: u32 = 8;
 /// Beside what is longer than the first, things of a row stand so far apart, m: street lamps do.
@@ -81,7 +83,9 @@ impl Finder<'_> {
                 };
                 along((place(one)? - place(other)?).norm())
             }
-            Where::Around(anchor @ Anchor::Thing(_)) if size(anchor)? <= RING.1 => Spacing::Count(RING_OF),
+            Where::Around(anchor @ Anchor::Thing(_)) if size(anchor)? <= SMALL_RING => {
+                Spacing::Count(RING_OF)
+            }
             Where::Around(anchor @ Anchor::Thing(_)) => along(size(anchor)? * 2.0),
             _ => return Ok(None),
         };

@@ -5,6 +5,7 @@
 
 mod afterthoughts;
 mod answers;
+mod antecedents;
 mod apart;
 mod aside;
 mod ask;
@@ -14,6 +15,7 @@ mod breaks;
 mod change;
 mod complaints;
 mod conditions;
+mod doubted;
 mod dressed;
 mod each;
 mod ends;
@@ -28,6 +30,7 @@ mod idle;
 mod make;
 mod measures;
 mod memo;
+mod mistaken;
 mod naming;
 mod nearer;
 mod noun;
@@ -41,6 +44,7 @@ mod parse;
 mod parts;
 mod passage;
 mod passing;
+mod phrased;
 mod places;
 mod plain;
 mod polite;
@@ -61,6 +65,7 @@ mod slips;
 mod spoken;
 mod standing;
 mod stated;
+mod stood;
 mod supposed;
 mod things;
 mod told;
@@ -139,8 +144,10 @@ pub(crate) fn read(
     let mut lexemes = hearing::hear(words, None);
     breaks::in_plain_words(words, &mut lexemes);
     respelt::in_plain_spelling(words, &mut lexemes);
+    doubted::in_plain_words(&mut lexemes);
     retold::in_plain_words(&mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
+    phrased::in_plain_words(words, &mut lexemes, &names);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
     which::in_plain_words(&mut lexemes);
@@ -160,6 +167,9 @@ pub(crate) fn read(
     let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
     let numbered = reader.with_number();
     let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
+    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+    let stood = reader.with_old_places(&finder);
+    let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
     if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
         return Err(reader.not_understood("say of what every second one is meant").into());
@@ -167,7 +177,6 @@ pub(crate) fn read(
     dress_new(&mut wishes);
     gone_once(&mut wishes);
     made_once(&mut wishes);
-    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     paint_at_once(&mut wishes, &finder);
     Ok(Reading { words: words.to_owned(), wishes })
 }
@@ -236,7 +245,12 @@ fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
         // "Elm Street has to be a play street: close it".
         let is_same_passage = match (wishes[at - 1].first(), wishes[at].as_slice()) {
             (Some(Wish::Passage { passage: before, .. }), [Wish::Passage { which, passage }]) => {
-                before == passage && which.iter().all(|street| *street == wish::StreetRef::It)
+                let is_it = |street: &wish::StreetRef| match street {
+                    wish::StreetRef::It => true,
+                    wish::StreetRef::Thing(thing) => says::is_it(thing),
+                    _ => false,
+                };
+                before == passage && which.iter().all(is_it)
             }
             _ => false,
         };
@@ -284,17 +298,23 @@ fn wishes_of(
     stock: &Stock,
     focus: &Focus,
 ) -> Result<Vec<Vec<Wish>>, PlanError> {
+    #[rustfmt::skip]
+    const PLACES: &[&str] = &["next to", "in front of", "behind", "beside", "to the left of", "to the right of", "left of", "right of", "near", "close to", "opposite"];
     let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
     let speaks_of_self = reader.lexemes.iter().any(|lexeme| {
         matches!(&lexeme.token, super::lexer::Token::Word(word) if ["me", "myself", "i", "us", "you", "yourself"].contains(&word.as_str()))
     });
     let is_known = |wish: &Wish| is_known(wish, &is_new, speaks_of_self);
     let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
+    let begins_with_place = super::lexicon::longest_phrase(reader.lexemes, PLACES).is_some();
     // What later wishes are about may be made by earlier ones.
     let is_there = |wishes: &[Vec<Wish>]| {
         let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
         let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
-        !wishes.first().is_some_and(|readings| readings.iter().all(missing))
+        let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+        // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
+        let is_lost = begins_with_place && wishes.iter().flatten().any(is_nowhere);
+        !is_lost && !wishes.first().is_some_and(|readings| readings.iter().all(missing))
     };
     let plain = Reader { ..reader }.sentence();
     if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
@@ -338,6 +358,9 @@ fn wishes_of(
         return Ok(wishes);
     }
     let readers = ways.iter().map(|(lexemes, memo)| over((lexemes.as_slice(), memo)));
+    if let Some(wishes) = reader.with_antecedents(&is_known, &is_there) {
+        return Ok(wishes);
+    }
     if let Some(wishes) =
         std::iter::once(reader).chain(readers).find_map(|reader| reader.of_sentences(&is_known, &is_there))
     {
@@ -346,7 +369,10 @@ fn wishes_of(
     if let Some(answer) = answer.filter(|_| plain.is_err()) {
         return answer;
     }
+    // What is told of a place first is not put anywhere else.
+    let nowhere = |wishes: &[Vec<Wish>]| begins_with_place && wishes.iter().flatten().any(is_nowhere);
     match (plain, in_parts) {
+        (Ok(wishes), _) if nowhere(&wishes) => Err(reader.not_understood("say where it is to go")),
         (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
             let unknown = |telling| reader.in_parts(&|_| true, &|_| true, telling);
@@ -436,6 +462,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(retold::words())
         .chain(breaks::words())
         .chain(told::words())
+        .chain(doubted::words())
+        .chain(phrased::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

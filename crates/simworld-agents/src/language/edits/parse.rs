@@ -74,6 +74,12 @@ impl<'a> Reader<'a> {
             {
                 return Err(Reader { at: from, ..*self }.not_understood("say where it is to go"));
             }
+            if self.is_only_told(&read, from, end) {
+                return Err(Reader { at: from, ..*self }.not_understood(UNDERSTOOD));
+            }
+            if let Some([before, ..]) = wishes.last().map(Vec::as_slice) {
+                self.share_place(before, from, &mut read);
+            }
             if let (Some([before, ..]), Some(first)) = (wishes.last().map(Vec::as_slice), read.first_mut()) {
                 for wish in first {
                     super::shared::on_street(before, wish, with);

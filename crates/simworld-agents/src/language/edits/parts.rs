@@ -5,14 +5,14 @@
 //! why somebody wants something. What begins as an order does is none, nor what says how something should be, so that no
 //! wish is passed over because its words are not understood.
 
-use super::super::clause::{Reference, Target};
+use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::{category, is_animate, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::follow::Said;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
-use super::words::{VERBS, Verb};
+use super::words::VERBS;
 
 /// As many parts are tried in all; whoever says more is not understood.
 const MOST_TRIED: usize = 160;
@@ -97,36 +97,9 @@ impl Reader<'_> {
             if search.tried > MOST_TRIED || self.memo.is_spent() {
                 return Err(Spent);
             }
-            let mut part = Reader { at: from, ..self.up_to(end) };
-            let Some(mut wishes) = part.part(said, end) else { continue };
-            if said.wish.as_ref().is_some_and(|before| self.is_stray(before, from, &wishes)) {
+            let Some(mut wishes) = self.wishes_of_part((from, end), (said, spoken_of), search) else {
                 continue;
-            }
-            let is_first = said.wish.is_none() && spoken_of.is_empty();
-            if self.is_count_told(&wishes, from, end) {
-                continue;
-            }
-            if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
-                continue;
-            }
-            let with = from > 0 && self.word(from - 1) == Some("with");
-            let both = (from..end).any(|at| self.word(at) == Some("both"));
-            wishes.iter_mut().flatten().for_each(|wish| {
-                // "The van and the bike are broken, take both of them away".
-                if let Wish::Remove { what } | Wish::Paint { what, .. } = wish
-                    && both
-                    && spoken_of.len() == 2
-                    && matches!(&what[..], [only] if super::follow::is_open(only))
-                {
-                    *what = spoken_of.to_vec();
-                }
-                if let Some(before) = &said.wish {
-                    super::shared::on_street(before, wish, with);
-                }
-                let spoken_of = self.in_order_of(wish, spoken_of);
-                wish.is_about(&spoken_of);
-                wish.stands(&said.place);
-            });
+            };
             let now = Said {
                 wish: wishes.last().and_then(|readings| readings.first().cloned()),
                 noun: self.last_noun(from, end).or_else(|| said.noun.clone()),
@@ -138,6 +111,73 @@ impl Reader<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// The wishes of one part, with what was told of before in the place of "it", unless they only tell.
+    fn wishes_of_part(
+        &self,
+        (from, end): (usize, usize),
+        (said, spoken_of): (&Said, &[Reference]),
+        search: &Search<'_>,
+    ) -> Option<Vec<Vec<Wish>>> {
+        let mut part = Reader { at: from, ..self.up_to(end) };
+        let mut wishes = part.part(said, end)?;
+        let is_first = said.wish.is_none() && spoken_of.is_empty();
+        let both = (from..end).any(|at| self.word(at) == Some("both"));
+        // "The bins are ugly" are both of them, and "the cone is" is one.
+        let is_one = |one: &Reference| one.count == Count::One && !super::resolve::plural(one);
+        let is_open = |wish: &mut Wish| wish.objects_mut().iter().any(|one| super::follow::is_open(one));
+        if said.wish.as_ref().is_some_and(|before| self.is_stray(before, from, &wishes))
+            || self.is_count_told(&wishes, from, end)
+            || self.is_dislike_told(from, end)
+            || self.is_only_told(&wishes, from, end)
+            || both && matches!(spoken_of, [only] if is_one(only)) && wishes.iter_mut().flatten().any(is_open)
+        {
+            return None;
+        }
+        if let Some(before) = &said.wish {
+            self.share_place(before, from, &mut wishes);
+        }
+        if spoken_of.is_empty() {
+            wishes
+                .iter_mut()
+                .flatten()
+                .for_each(|wish| super::mistaken::beside_what_was_told(wish, &said.place));
+        }
+        if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
+            return None;
+        }
+        let with = from > 0 && self.word(from - 1) == Some("with");
+        for wish in wishes.iter_mut().flatten() {
+            // "The van and the bike are broken, take both of them away".
+            if let Wish::Remove { what } | Wish::Paint { what, .. } = wish
+                && both
+                && spoken_of.len() == 2
+                && matches!(&what[..], [only] if super::follow::is_open(only))
+            {
+                *what = spoken_of.to_vec();
+            }
+            if let Some(before) = &said.wish {
+                super::shared::on_street(before, wish, with);
+            }
+            let others = self.others_of(wish, spoken_of);
+            wish.is_about(&others);
+            wish.stands(&said.place);
+        }
+        let to_itself = |wish: &Wish| {
+            matches!(wish, Wish::Face { what, towards }
+                if matches!(&what[..], [only] if only.target == towards.target))
+        };
+        (!wishes.iter().flatten().any(to_itself)).then_some(wishes)
+    }
+
+    /// What was spoken of, without what a wish is about itself: "Rex and Ben belong together, put Rex beside him".
+    fn others_of(&self, wish: &mut Wish, spoken_of: &[Reference]) -> Vec<Reference> {
+        let spoken_of = self.in_order_of(wish, spoken_of);
+        let own: Vec<Target> = wish.objects_mut().iter().map(|one| one.target.clone()).collect();
+        let others: Vec<Reference> =
+            spoken_of.iter().filter(|one| !own.contains(&one.target)).cloned().collect();
+        if others.is_empty() { spoken_of } else { others }
     }
 
     /// A remark that ends at any of the next cuts, and all that follows it: "the crate, I think, is ugly".
@@ -162,7 +202,7 @@ impl Reader<'_> {
                     || by_sentence && self.is_sentence_aside(from, end, search.is_known)
             };
             if !asks_nothing && !is_told()
-                || said.wish.is_some() && self.is_listed(said, from, end)
+                || said.wish.is_some() && (self.is_listed(said, from, end) || self.goes_on_within(from, end))
                 || self.hides_wish(said, (from, end), search.is_known)
             {
                 return None;
@@ -191,75 +231,6 @@ impl Reader<'_> {
                 .unwrap_or_else(|| said.place.clone());
             let now = Said { noun, place, ..said.clone() };
             self.parts_from(end, &now, &things, search)
-        })
-    }
-
-    /// "Thirty men are coming, thirty, so ...": bare things without a place from which a request follows are who it is for.
-    fn is_count_told(&self, wishes: &[Vec<Wish>], from: usize, end: usize) -> bool {
-        let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
-        let marks = self.lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
-        // "Thirty men, so thirty chairs" is no list.
-        let early = (from + 1..end.min(from + 4))
-            .any(|at| is_mark(&self.lexemes[at]) && self.word(at + 1) == Some("so"));
-        if early
-            && super::super::numbers::count(&self.lexemes[from..end]).is_some()
-            && longest(&self.lexemes[from..end], &VERBS).is_none()
-        {
-            return true;
-        }
-        marks > 0
-            && longest_phrase(&self.lexemes[end + marks..], &["so"]).is_some()
-            && wishes.iter().flatten().all(nowhere)
-            && longest(&self.lexemes[from..end], &VERBS).is_none()
-    }
-
-    /// Whether an order that is understood stands in what seems to ask for nothing: "for the street party close Elm Street".
-    fn hides_wish(&self, said: &Said, (from, end): (usize, usize), is_known: &dyn Fn(&Wish) -> bool) -> bool {
-        const FOR: &Phrases = &Phrases::of(&["for the", "for my", "for our", "for a", "for this", "while"]);
-        let is_why = longest_phrase(&self.lexemes[from..end], FOR).is_some();
-        (from..end).any(|at| {
-            let may = at == from
-                || is_mark(&self.lexemes[at - 1])
-                || matches!(self.word(at - 1), Some("and" | "then" | "please" | "just" | "also" | "now"))
-                || is_why && at > from + 2;
-            may && longest(&self.lexemes[at..end], &VERBS).is_some()
-                && !self.is_said_twice(said, at, end)
-                && (self.renames(at, end)
-                    || Reader { at, ..self.up_to(end) }
-                        .wish(end)
-                        .is_ok_and(|wishes| wishes.iter().flatten().all(is_known)))
-        })
-    }
-
-    /// "Remove the van and the yellow car, ...": what is named behind "and" up to a mark is one more of those that were named.
-    fn is_listed(&self, said: &Said, from: usize, end: usize) -> bool {
-        let is_joined = from > 0 && matches!(self.word(from - 1), Some("and" | "or" | "plus"));
-        let mut parser = self.parser(from, end);
-        let is_new =
-            longest_phrase(&self.lexemes[from..end], &["a", "an", "another", "two", "three", "four", "some"])
-                .is_some();
-        let is_bare = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
-        if is_joined && is_new && said.wish.as_ref().is_some_and(is_bare) {
-            return true;
-        }
-        is_joined
-            && self.is_definite(from)
-            && parser.reference(0).is_ok()
-            && parser.at > from
-            // "Turn the taxi around and the van ninety degrees to the right".
-            && (self.lexemes.get(parser.at).is_none_or(is_mark)
-                || super::super::numbers::number(&self.lexemes[parser.at..end.max(parser.at)]).is_some())
-    }
-
-    /// "Rename it", whatever is said behind.
-    fn renames(&self, at: usize, end: usize) -> bool {
-        longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, words)| {
-            verb == Verb::Name
-                && longest_phrase(
-                    &self.lexemes[at + words..end],
-                    &["it", "him", "her", "the", "that", "this"],
-                )
-                .is_some()
         })
     }
 
@@ -322,7 +293,7 @@ impl Reader<'_> {
     }
 
     /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
-    fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+    pub(super) fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
         (from + 1..end).rev().find_map(|at| {
             let whose = ["a", "an", "her", "his", "my", "their", "our", "any", "no"];
             self.word(at - 1).filter(|word| whose.contains(word))?;
@@ -332,7 +303,7 @@ impl Reader<'_> {
     }
 
     /// "Bruno wants to watch Carol, turn him": what was asked for before, without saying anything new.
-    fn is_said_twice(&self, said: &Said, from: usize, end: usize) -> bool {
+    pub(super) fn is_said_twice(&self, said: &Said, from: usize, end: usize) -> bool {
         #[rustfmt::skip]
         const DO_IT: &Phrases = &Phrases::of(&["turn him", "turn her", "turn it", "turn them", "rotate him", "rotate her", "rotate it", "rotate them", "move him", "move her", "move it", "move them",
             "do it", "do that", "so turn him", "so turn her", "so turn it", "so move it", "swap them", "switch them"]);
@@ -356,6 +327,16 @@ impl Reader<'_> {
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
         // "There is too much litter at the statue": nothing that "it" could be, but the statue.
         let stop = if longest_phrase(&self.lexemes[from..end], TOO_MUCH).is_some() { end } else { stop };
+        // "The blue bench is where the ladies knit": the bench, and not the ladies.
+        let stop = (from + 1..stop)
+            .find(|at| {
+                longest_phrase(
+                    &self.lexemes[*at..stop],
+                    &["is where", "is the place where", "is the spot where", "is what", "is when"],
+                )
+                .is_some()
+            })
+            .unwrap_or(stop);
         // "The statue is so small that people overlook it": the statue, and not the people.
         let so = (from..stop).find(|at| self.word(*at) == Some("so"));
         let stop = so.and_then(|so| (so + 1..stop).find(|at| self.word(*at) == Some("that"))).unwrap_or(stop);
@@ -363,6 +344,7 @@ impl Reader<'_> {
         let too = (from..stop).find(|at| matches!(self.word(*at), Some("too" | "enough")));
         let whom = too.and_then(|too| (too + 1..stop).find(|at| self.word(*at) == Some("for")));
         let mut things = self.spoken_of(from, whom.unwrap_or(stop));
+
         // "It is for Anna": what was spoken of before stays the first.
         let again =
             longest_phrase(&self.lexemes[from..end], &["it", "its", "it is", "they", "theyre", "they are"]);
@@ -397,7 +379,13 @@ impl Reader<'_> {
         let of_those = (self.names_ones(start, stop) && self.last_noun(start, one).is_none())
             .then(|| self.with_noun(said, start, stop))
             .flatten();
-        if let Some(wishes) = of_those.and_then(|order| self.read_anew(&order)) {
+        if let Some(wishes) = of_those.as_ref().and_then(|order| self.read_anew(order)) {
+            return Some(wishes);
+        }
+        // "Paint the white car blue and the black one too".
+        if let Some(wishes) =
+            of_those.as_ref().and_then(|order| self.over(order).more_of_it(said, order.len()))
+        {
             return Some(wishes);
         }
         if let Ok(wishes) = self.wish(end)

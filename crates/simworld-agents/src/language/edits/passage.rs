@@ -58,8 +58,10 @@ impl Reader<'_> {
         }
         // "Mill Lane was closed" tells what was.
         let was = |at: usize| {
-            matches!(self.word(at), Some("was" | "were"))
+            matches!(self.word(at), Some("was" | "were" | "been"))
                 && matches!(self.word(at + 1), Some("closed" | "shut" | "blocked" | "barred"))
+                // "Has been shut long enough".
+                && longest_phrase(&self.lexemes[at + 1..end], OPEN).is_none()
         };
         // "They closed Mill Lane last year" tells, and asks for nothing.
         let they = longest_phrase(
@@ -145,8 +147,11 @@ impl Reader<'_> {
     /// A street that is named or described from here on, and where that ends.
     pub(super) fn street_ref(&self, at: usize, end: usize) -> Option<(StreetRef, usize)> {
         let streets = self.view.streets?;
-        let skip = longest_phrase(&self.lexemes[at..end], &["the", "all of", "the whole of", "the whole"])
-            .unwrap_or(0);
+        let skip = longest_phrase(
+            &self.lexemes[at..end],
+            &["the", "all of", "both", "both of", "the whole of", "the whole"],
+        )
+        .unwrap_or(0);
         if let Some(found) = self.half_street(at + skip, end) {
             return Some(found);
         }

@@ -8,7 +8,7 @@ use super::forms::word_at;
 
 /// Words that make a wish stronger or weaker, and no other.
 #[rustfmt::skip]
-const ADVERBS: &[&str] = &["really", "definitely", "certainly", "absolutely", "totally", "seriously", "honestly", "literally", "basically", "desperately", "badly", "sorely",
+const ADVERBS: &[&str] = &["really", "smack", "definitely", "certainly", "absolutely", "totally", "seriously", "honestly", "literally", "basically", "desperately", "badly", "sorely",
     "urgently", "frankly", "truly", "obviously", "clearly", "surely", "undoubtedly", "ideally", "preferably", "presumably", "urgent", "personally", "sincerely", "finally", "hereby", "henceforth", "forthwith", "allegedly", "reportedly", "hereafter", "thereupon", "gladly"];
 /// Where a name may follow, which is any word.
 const CALLS: &[&str] = &["call", "name", "rename", "christen", "label", "title", "called", "named"];
@@ -71,7 +71,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
 
 /// The words of who is called, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    CALLED.iter().chain(JUDGED).flat_map(|phrase| phrase.split(' '))
+    CALLED.iter().chain(JUDGED).chain(ADVERBS).flat_map(|phrase| phrase.split(' '))
 }
 
 /// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".

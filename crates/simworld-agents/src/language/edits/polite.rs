@@ -24,7 +24,7 @@ pub(super) const POLITE: &Phrases = &Phrases::of(&["please", "thanks", "thank yo
     "may i ask you to", "it would be nice to", "it would be great to", "it would be nice if you could",
     "id be grateful if you could", "would it be possible to", "is it possible to", "might you",
     "i reckon we should", "you need to", "you have to", "you can", "you could", "go and", "go", "instead", "now",
-    "kindly please", "sir", "as well", "too", "i wonder if you could", "it is time to", "its time to", "time to",
+    "kindly please", "sir", "as well", "too", "i wonder if you could", "would you be kind enough to", "could you be kind enough to", "be kind enough to", "would you be so kind as to", "could you be so kind as to", "would you be so good as to", "would you be so kind and", "might i ask you to", "might i trouble you to", "could i trouble you to", "could i ask you to", "i wonder whether you could", "i was wondering if you could", "i was wondering whether you could", "i was wondering if we could", "i was wondering if you might", "i wanted to ask if you could", "i wanted to ask whether you could", "i wanted to ask you to", "it is time to", "its time to", "time to",
     "how about", "what about", "what if we", "shall we", "anymore", "any more", "any longer", "at all",
     "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"]);
 /// What is put behind wishes, and says nothing.

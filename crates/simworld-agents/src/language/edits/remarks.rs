@@ -68,16 +68,17 @@ const CALLS: &Phrases = &Phrases::of(&["vroom", "beep", "boom", "wow", "ugh", "a
     "good day", "hello there", "hi there", "hey there", "you know", "you know what", "guess what", "tell you what", "thats it", "there we go", "there you go",
     "very well", "much better", "good job", "well done", "nice one", "no", "whoa", "woah", "zoom", "honk", "ding dong", "boo", "bah", "meh", "gosh", "blimey", "damn",
     "dammit", "bonjour", "hola", "ciao", "moin", "servus", "sigh", "lol", "btw", "fyi", "asap", "new idea", "change of plan", "change of plans", "one last thing", "last thing",
-    "one thing", "next thing", "first thing", "ok now", "alright then", "that said", "anyway", "anyhow", "still", "next", "no rush", "no hurry", "take your time", "when you have time", "whenever you have time", "thats all", "that is all", "too bad", "what a shame", "shame", "yuck", "eww", "ew", "the horror", "no way", "never mind"]);
+    "one thing", "next thing", "first thing", "ok now", "alright then", "that said", "anyway", "anyhow", "still", "next", "no rush", "no hurry", "take your time", "when you have time", "whenever you have time", "thats all", "that is all", "too bad", "what a shame", "shame", "yuck", "eww", "ew", "the horror", "no way", "never mind", "off they go", "off it goes", "so off they go", "so off it goes", "off you go", "hang on"]);
 
 impl Reader<'_> {
     /// Whether some words ask for nothing.
     pub(super) fn is_remark(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
-        if self.orders_within(from, end) {
+        if self.orders_within(from, end) || self.goes_on_within(from, end) {
             return false;
         }
-        if self.is_call(from, end)
+        if self.is_enough(from, end)
+            || self.is_call(from, end)
             || self.is_named_alone(from, end)
             || self.dislikes(from, end)
             || self.praises(from, end)

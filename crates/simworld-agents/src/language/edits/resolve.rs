@@ -230,7 +230,7 @@ impl Finder<'_> {
         if let Some(what) = what {
             let is_nearest = matches!(what.relation, Some(Stands::NearestTo(..)))
                 || matches!(what.choice, Choice::Nearest | Choice::Farthest | Choice::Most(..));
-            if is_nearest && !plural(what) {
+            if is_nearest && (!plural(what) || is_of_several(what)) {
                 return Ok(vec![self.one(&Reference { count: Count::One, ..what.clone() })?]);
             }
             return if what.count == Count::One && !plural(what) {
@@ -265,11 +265,7 @@ impl Finder<'_> {
     pub(super) fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
         let mut things = Vec::new();
         for one in what {
-            let of_several = one.choice != Choice::Open
-                && [" of the ", " of all ", " of these ", " of those "]
-                    .iter()
-                    .any(|of| one.text.contains(of));
-            if one.count == Count::One && (!plural(one) || of_several) {
+            if one.count == Count::One && (!plural(one) || is_of_several(one)) {
                 things.push(self.one(one)?);
             } else {
                 things.extend(self.candidates(one)?);
@@ -434,13 +430,23 @@ impl Finder<'_> {
     }
 }
 
+/// "The tallest of the limes" is one of them.
+fn is_of_several(what: &Reference) -> bool {
+    let of = [" of the ", " of all ", " of these ", " of those "];
+    what.choice != Choice::Open && of.iter().any(|of| what.text.contains(of))
+}
+
 /// Whether the noun is in the plural: "the trash bins".
 pub(super) fn plural(reference: &Reference) -> bool {
     let Target::Any(class) = &reference.target else { return false };
-    let lower = reference.text.to_lowercase();
+    let lower = reference.text.to_lowercase().replace("'s", "").replace("’s", "");
     let head = lower.split([',', '.']).next().unwrap_or_default();
     let head = lex(head);
-    let is_singular = |word: &str| class.words.iter().any(|known| known.rsplit(' ').next() == Some(word));
+    // "The limes" are trees of that sort.
+    let sort = reference.traits.sort.as_ref().and_then(|sort| sort.rsplit('_').next());
+    let is_singular = |word: &str| {
+        class.words.iter().any(|known| known.rsplit(' ').next() == Some(word)) || sort == Some(word)
+    };
     let many = ["people", "everybody", "everyone", "men", "women", "kids"];
     let is_plural = |word: &str| {
         let stems = [word.strip_suffix("es"), word.strip_suffix('s')];

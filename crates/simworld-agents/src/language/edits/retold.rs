@@ -46,9 +46,7 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
     }
-    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["if", "case", "room", "space", "thats", "bigger", "larger", "smaller", "it", "its"].contains(&word.as_str()))) {
-        *lexemes = told_by(lexemes, BEFORE_ALL);
-    }
+    *lexemes = told_by(lexemes, BEFORE_ALL);
 }
 
 /// What begins a clause that says why or what for, behind a request.
@@ -298,6 +296,16 @@ fn told_by(lexemes: &[Lexeme], turns: &[(&str, &str)]) -> Vec<Lexeme> {
 /// What the words mean by a turn of phrase, if they are one.
 fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<Lexeme>> {
     let pattern: Vec<&str> = said.split(' ').collect();
+    // Most patterns have a word that the sentence has not.
+    let is_said =
+        |word: &&str| words.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(own) if own == word));
+    let may_fit = |part: &&str| {
+        part.len() == 1 && !["a", "i"].contains(part)
+            || part.split('|').any(|word| word == "-" || is_said(&word))
+    };
+    if !pattern.iter().all(may_fit) {
+        return None;
+    }
     let mut bound = Vec::new();
     if !fits(words, 0, &pattern, &mut bound) {
         return None;
@@ -341,7 +349,7 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     }
     let is_open = ["O", "P", "Q"].contains(first);
     let least = usize::from(!is_open);
-    let most = if ["M", "D"].contains(first) { 3 } else { words.len() - at };
+    let most = if ["M", "D", "X"].contains(first) { 3 } else { words.len() - at };
     for count in least..=most.min(words.len() - at) {
         let part = &words[at..at + count];
         if !is_open && part.iter().any(is_mark) {
@@ -350,6 +358,7 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
         if *first == "M" && !is_measure(part)
             || *first == "D" && !is_new(part)
             || *first == "O" && !may_order(part)
+            || !is_of_kind(first, part)
         {
             continue;
         }
@@ -360,6 +369,28 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
         bound.pop();
     }
     false
+}
+
+/// Whether words are what a capital of the table stands for.
+fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
+    let whole = |found: Option<usize>| found == Some(words.len());
+    match capital {
+        "K" => whole(longest(words, PAINTS).map(|(_, count)| count)),
+        "F" => whole(longest(words, &super::words::FACTORS).map(|(_, count)| count)),
+        "Y" | "Z" => {
+            whole(longest(words, &super::words::SKIES).map(|(_, count)| count))
+                || whole(super::sky::hour(words).map(|(_, count)| count))
+        }
+        "U" => matches!(words, [Lexeme { token: Token::Word(word), .. }] if word.ends_with("est")),
+        "W" => longest(words, &super::words::WAYS).is_some(),
+        "N" | "V" => {
+            words.len() > 1
+                && longest_phrase(words, &["the", "that", "this", "my", "our", "these", "those", "both"])
+                    .is_some()
+        }
+        "X" => !(0..words.len()).any(|at| longest(&words[at..], &super::words::WAYS).is_some()),
+        _ => true,
+    }
 }
 
 /// Whether an order may follow: "they have a bench" is none.

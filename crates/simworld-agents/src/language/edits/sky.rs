@@ -32,6 +32,32 @@ pub(super) const COMPLAINS: &[&str] = &[
     "is so",
     "is very",
 ];
+/// Before the weather that is to come, from which an order follows.
+pub(super) const FORECASTS: &Phrases = &Phrases::of(&[
+    "they say",
+    "they said",
+    "they promised",
+    "the forecast says",
+    "i heard",
+    "its going to",
+    "it is going to",
+    "its gonna",
+    "theres going to be",
+    "it will be",
+    "itll be",
+    "its supposed to",
+    "well have",
+    "is coming",
+    "are coming",
+    "is on its way",
+    "is expected",
+    "is forecast",
+]);
+/// How somebody feels.
+#[rustfmt::skip]
+pub(super) const SHIVERS: &Phrases = &Phrases::of(&["were freezing", "we are freezing", "im freezing", "i am freezing", "shes freezing", "hes freezing", "theyre freezing", "they are freezing", "everybody is freezing", "everyone is freezing", "people are freezing", "is freezing", "were soaking", "im soaking",
+    "something hot", "something cold", "something warm", "something cool", "anything hot", "anything cold",
+    "were cold", "im cold", "were hot", "im hot"]);
 /// What denies something else, so that nothing is wished for.
 const DENIES: &[&str] = &["not", "dont", "never", "shouldnt", "mustnt", "doesnt", "isnt"];
 

@@ -82,6 +82,30 @@ const USUAL: &[(&str, &str)] = &[
     ("remoev", "remove"),
     ("tabel", "table"),
     ("tabels", "tables"),
+    ("neer", "near"),
+    ("menny", "many"),
+    ("meny", "many"),
+    ("wether", "weather"),
+    ("whereabouts", "where"),
+    ("nere", "near"),
+    ("bothe", "both"),
+    ("aer", "are"),
+    ("mak", "make"),
+    ("freind", "friend"),
+    ("coud", "could"),
+    ("culd", "could"),
+    ("wuld", "would"),
+    ("mvoe", "move"),
+    ("moev", "move"),
+    ("wya", "way"),
+    ("skool", "school"),
+    ("pait", "paint"),
+    ("paitn", "paint"),
+    ("nex", "next"),
+    ("awy", "away"),
+    ("awya", "away"),
+    ("rdo", "red"),
+    ("rmove", "remove"),
 ];
 
 /// Behind "tow", that it is an order and no slip of "two".
@@ -130,9 +154,28 @@ pub(super) fn correct(
         if is_tow {
             continue;
         }
+        // "Harbor Road" where the road is called Harbour Road.
+        let british = word.strip_suffix("or").map(|stem| format!("{stem}our"));
+        if let Some(british) = british
+            && !names.has_word(word)
+            && !streets.has_word(word)
+            && (names.has_word(&british) || streets.has_word(&british))
+        {
+            lexemes[here].token = Token::Word(british);
+            lexemes[here].lemma = None;
+            continue;
+        }
         let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());
+        // "Limes" are no slip of "times".
+        let written = &words[lexemes[here].start..lexemes[here].end];
+        let is_plural = !written.contains(['\'', '’'])
+            && super::super::sorts::singulars(word).skip(1).any(|word| stock.has_word(&word));
         if right.is_none()
-            && (own.contains(word) || is_known(word) || names.has_word(word) || streets.has_word(word))
+            && (is_plural
+                || own.contains(word)
+                || is_known(word)
+                || names.has_word(word)
+                || streets.has_word(word))
         {
             continue;
         }

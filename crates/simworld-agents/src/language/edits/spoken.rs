@@ -70,7 +70,7 @@ impl Reader<'_> {
     }
 
     /// A thing of the scene that is named here, and where its name ends.
-    fn named_at(&self, at: usize, end: usize) -> Option<(Reference, usize)> {
+    pub(super) fn named_at(&self, at: usize, end: usize) -> Option<(Reference, usize)> {
         let says_which =
             longest_phrase(&self.lexemes[at..end], &["the", "that", "this", "my", "those", "our", "these"])
                 .is_some();

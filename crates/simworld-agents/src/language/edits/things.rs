@@ -35,6 +35,7 @@ impl Reader<'_> {
             if anchor.is_some() && self.is_bare_singular(end) {
                 return Err(self.not_understood("say \"next to\" again, or \"a\" before what is to be made"));
             }
+            let is_joined = self.at > 0 && matches!(self.word(self.at - 1), Some("and" | "also" | "plus"));
             let things = self.listed(last.as_ref(), end)?;
             let whose = self.for_whom(end);
             let from = self.at;
@@ -50,7 +51,12 @@ impl Reader<'_> {
                 continue;
             }
             let at = self.place_of_new(from, whose, &mut anchor, end)?;
-            let at = at.or_else(|| there.clone()).unwrap_or_default();
+            // "A slide in Rose Park, and a seesaw": there too.
+            let shared = || match wishes.last().and_then(|wish: &Vec<Wish>| wish.first()) {
+                Some(Wish::Add { at, .. }) if is_joined => Some(at.clone()),
+                _ => None,
+            };
+            let at = at.or_else(|| there.clone()).or_else(shared).unwrap_or_default();
             // "Three barrels next to the kiosk in red, white and blue".
             let things = match &things[..] {
                 [only] if self.at < end => self.in_colours(only, end).unwrap_or(things),

@@ -66,7 +66,7 @@ impl Reader<'_> {
         let leads = self.leads_to_order(end);
         let may_change = || {
             if leads {
-                self.sets_a_condition(start, end) || self.wishes_for_new(start, end)
+                self.sets_a_condition(start, end) || self.wishes_for_known(start, end)
             } else {
                 self.may_take_back(start, end) || self.wishes_for(start, end)
             }
@@ -77,6 +77,7 @@ impl Reader<'_> {
                 || self.tells_of_what_is_here(start, end, leads)
         };
         ends && words.len() > 1
+            && !self.goes_on_within(from, end)
             // "Do what a good host would do" is an order, though nobody knows which.
             && !(start..end).any(|at| {
                 (at == start || is_mark(&self.lexemes[at - 1]))
@@ -94,7 +95,7 @@ impl Reader<'_> {
     }
 
     /// Whether "so" follows and then an order, or what may be one: "..., so paint it".
-    fn leads_to_order(&self, end: usize) -> bool {
+    pub(super) fn leads_to_order(&self, end: usize) -> bool {
         let marks = self.lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
         let so = longest_phrase(
             &self.lexemes[end + marks..],
@@ -153,6 +154,20 @@ impl Reader<'_> {
                 numbers::count(rest).is_some() || longest_phrase(rest, &["a", "an", "some", "more"]).is_some()
             })
         })
+    }
+
+    /// As [`Self::wishes_for_new`], of something that somebody has: nobody has "a home of his own".
+    fn wishes_for_known(&self, from: usize, end: usize) -> bool {
+        let article = (from + 1..end).rev().find(|at| matches!(self.word(*at), Some("a" | "an")));
+        let is_unknown = article.is_some_and(|at| {
+            let noun = &self.lexemes[at + 1..end];
+            // "A home of his own".
+            noun.iter().any(|word| word.token == Token::Word("own".to_owned()))
+                || !(0..noun.len().min(3)).any(|at| {
+                    category(&noun[at..]).is_some() || self.names.asset_words(&noun[at..]).is_some()
+                })
+        });
+        self.wishes_for_new(from, end) && !is_unknown
     }
 
     pub(super) fn is_read_as_wish(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {

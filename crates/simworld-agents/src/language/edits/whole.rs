@@ -12,7 +12,7 @@ const IS_THERE: &Phrases = &Phrases::of(&["if there is", "if there are", "if the
     "how many", "if you find", "if you see", "if there happens to be", "in case there is"]);
 /// All of the scene.
 #[rustfmt::skip]
-const WHOLE: &[&str] = &["campus", "quarter", "harbour", "harbor", "town", "city", "scene", "map", "simulation", "world", "neighbourhood", "neighborhood", "district", "village", "environment"];
+const WHOLE: &[&str] = &["campus", "quarter", "harbour", "harbor", "town", "city", "scene", "map", "simulation", "world", "neighbourhood", "neighborhood", "district", "village", "environment", "quay", "quayside", "waterfront", "dockside", "docks", "premises"];
 /// Before it.
 #[rustfmt::skip]
 const BEFORE_WHOLE: &Phrases = &Phrases::of(&["in", "on", "around", "across", "within", "throughout", "about", "all over", "anywhere in", "anywhere on", "anywhere around", "somewhere in", "somewhere on", "anywhere across", "left in", "left on", "already in",

@@ -4,7 +4,7 @@ use crate::tables::lines_of;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 19] = [
+const SETS: [&str; 21] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -24,6 +24,8 @@ const SETS: [&str; 19] = [
     "seventeenth.edits",
     "eighteenth.edits",
     "nineteenth.edits",
+    "twentieth.edits",
+    "twentyfirst.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
