@@ -353,7 +353,7 @@ fn who_is_parked_beside_the_lane_is_no_queue() {
     let car = town.car;
     let mut run = town.run(car, "drive to the hospital");
     let (mut stood, mut least) = (0, f64::INFINITY);
-    while run.car_at().x < 108.0 {
+    while run.car_at().x < 103.0 {
         assert_eq!(run.step(), Progress::Running);
         let world = run.simulation.world();
         let [own, other] = [car, parked].map(|id| world.entity(id).expect("it is there"));

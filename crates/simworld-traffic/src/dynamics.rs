@@ -85,7 +85,7 @@ impl TrafficDynamics {
     pub fn new(world: &mut World, config: &TrafficConfig, seed: Seed) -> Result<Self, TrafficError> {
         let network = Arc::clone(world.roads().ok_or(TrafficError::NoRoads)?);
         let traffic = Traffic::new(network, config, seed)?;
-        let mut vehicles = vec![EntityId::default(); traffic.placed().vehicles as usize];
+        let mut vehicles = vec![NOBODY; traffic.placed().vehicles as usize];
         let stream = seed.stream("traffic/paint");
         let mut paint = stream.rng();
         let mut bodies: Vec<_> = traffic.vehicles().collect();
@@ -153,7 +153,7 @@ impl TrafficDynamics {
         let Self { others, vehicles, pedestrians, .. } = self;
         let vehicles_own = (0..).map(Who::Vehicle).zip(vehicles.iter());
         let own = vehicles_own.chain((0..).map(Who::Walker).zip(pedestrians.iter()));
-        let own = own.filter(|(_, id)| **id != EntityId::default()).map(|(who, id)| (*id, who));
+        let own = own.filter(|(_, id)| **id != NOBODY).map(|(who, id)| (*id, who));
         for (id, who) in others.look(world, own) {
             self.bury(id, who);
         }
@@ -185,7 +185,7 @@ impl TrafficDynamics {
             }
         }
         for walk in self.traffic.walks().iter().filter(|walk| walk.left) {
-            let id = self.pedestrians.get(walk.id as usize).copied().unwrap_or_default();
+            let id = self.pedestrians.get(walk.id as usize).copied().unwrap_or(NOBODY);
             if world.entity(id).is_some() {
                 world.remove(id)?;
             }
@@ -196,7 +196,7 @@ impl TrafficDynamics {
     /// Makes an entity for every walker who entered.
     fn welcome_walkers(&mut self, world: &mut World) -> Result<(), DynamicsError> {
         let count = self.traffic.pedestrians().len();
-        self.pedestrians.resize(count, EntityId::default());
+        self.pedestrians.resize(count, NOBODY);
         for index in self.traffic.walkers_entered() {
             let walker = &self.traffic.pedestrians()[*index as usize];
             let entered = self.traffic.counters().walkers_entered;
@@ -215,7 +215,7 @@ impl TrafficDynamics {
         for body in self.traffic.entered().iter().filter_map(|id| self.traffic.vehicle(*id)) {
             let index = body.id as usize;
             if self.vehicles.len() <= index {
-                self.vehicles.resize(index + 1, EntityId::default());
+                self.vehicles.resize(index + 1, NOBODY);
             }
             let mut paint =
                 self.paint.indexed(self.traffic.counters().entered).indexed(u64::from(body.id)).rng();
@@ -245,6 +245,9 @@ impl TrafficDynamics {
         Ok(())
     }
 }
+
+/// Whose number has no entity: no world has so many that one has this id.
+const NOBODY: EntityId = EntityId::new(u32::MAX, u32::MAX);
 
 /// What is saved: the configuration, the state, entities of vehicles and walkers by number, whom somebody else moves, and the
 /// closures of closed streets.

@@ -10,6 +10,7 @@ mod apart;
 mod aside;
 mod ask;
 mod asked;
+mod attempts;
 mod bounds;
 mod breaks;
 mod change;
@@ -78,15 +79,13 @@ pub(super) mod words;
 
 use std::sync::Arc;
 
+use attempts::wishes_of;
 use parse::{Reader, UNDERSTOOD};
-use parts::Telling;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
-use simworld_core::seam::PlanError;
 use wish::Wish;
 
-use super::lexer::Lexeme;
 use super::names::Names;
 use super::parser::shortened;
 use super::resolve::View;
@@ -288,122 +287,6 @@ fn made_once(wishes: &mut Vec<Vec<Wish>>) {
 fn are_those(what: &[super::clause::Reference], things: &[wish::NewThing]) -> bool {
     let several = things.len() > 1 || things.iter().any(|thing| thing.count > 1);
     several && matches!(what, [only] if only.target == super::clause::Target::Them)
-}
-
-/// The wishes of a sentence: as it stands or, if that is not understood, or asks for what nobody has or what is not there,
-/// part by part.
-fn wishes_of(
-    reader: Reader<'_>,
-    scene: &dyn Scene,
-    stock: &Stock,
-    focus: &Focus,
-) -> Result<Vec<Vec<Wish>>, PlanError> {
-    #[rustfmt::skip]
-    const PLACES: &[&str] = &["next to", "in front of", "behind", "beside", "to the left of", "to the right of", "left of", "right of", "near", "close to", "opposite"];
-    let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
-    let speaks_of_self = reader.lexemes.iter().any(|lexeme| {
-        matches!(&lexeme.token, super::lexer::Token::Word(word) if ["me", "myself", "i", "us", "you", "yourself"].contains(&word.as_str()))
-    });
-    let is_known = |wish: &Wish| is_known(wish, &is_new, speaks_of_self);
-    let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
-    let begins_with_place = super::lexicon::longest_phrase(reader.lexemes, PLACES).is_some();
-    // What later wishes are about may be made by earlier ones.
-    let is_there = |wishes: &[Vec<Wish>]| {
-        let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
-        let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
-        let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
-        // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
-        let is_lost = begins_with_place && wishes.iter().flatten().any(is_nowhere);
-        !is_lost && !wishes.first().is_some_and(|readings| readings.iter().all(missing))
-    };
-    let plain = Reader { ..reader }.sentence();
-    if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
-        return plain;
-    }
-    let in_parts = reader.in_parts(&is_known, &is_there, Telling::Words);
-    if let Some(wishes) = in_parts.as_ref().filter(|wishes| is_there(wishes)) {
-        return Ok(wishes.clone());
-    }
-    let ways: Vec<(Vec<Lexeme>, memo::Memo)> =
-        reader.retold().into_iter().map(|lexemes| (lexemes, memo::Memo::default())).collect();
-    let Reader { words, names, view, .. } = reader;
-    let over = |(lexemes, memo)| Reader { lexemes, memo, words, names, view, at: 0, depth: 0 };
-    let mut answer = None;
-    let told_again = ways.iter().find_map(|(lexemes, memo)| {
-        let reader = over((lexemes.as_slice(), memo));
-        let plain = Reader { ..reader }.sentence();
-        if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
-            return plain.ok();
-        }
-        let in_parts =
-            reader.in_parts(&is_known, &is_there, Telling::Words).filter(|wishes| is_there(wishes));
-        // What is not there, or what nobody has, is a better answer than that nothing is understood.
-        if !matches!(plain, Err(PlanError::NotUnderstood { .. })) {
-            answer.get_or_insert(plain);
-        }
-        in_parts
-    });
-    if let Some(wishes) = told_again {
-        return Ok(wishes);
-    }
-    let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
-    let by_shape = |reader: &Reader<'_>| {
-        let found = reader.in_parts(&is_known, &is_there, Telling::Shape)?;
-        // What is told along the way may have said where.
-        (is_there(&found) && !found.iter().flatten().any(is_nowhere)).then_some(found)
-    };
-    let along_the_way = by_shape(&reader)
-        .or_else(|| ways.iter().find_map(|(lexemes, memo)| by_shape(&over((lexemes.as_slice(), memo)))));
-    if let Some(wishes) = along_the_way {
-        return Ok(wishes);
-    }
-    let readers = ways.iter().map(|(lexemes, memo)| over((lexemes.as_slice(), memo)));
-    if let Some(wishes) = reader.with_antecedents(&is_known, &is_there) {
-        return Ok(wishes);
-    }
-    if let Some(wishes) =
-        std::iter::once(reader).chain(readers).find_map(|reader| reader.of_sentences(&is_known, &is_there))
-    {
-        return Ok(wishes);
-    }
-    if let Some(answer) = answer.filter(|_| plain.is_err()) {
-        return answer;
-    }
-    // What is told of a place first is not put anywhere else.
-    let nowhere = |wishes: &[Vec<Wish>]| begins_with_place && wishes.iter().flatten().any(is_nowhere);
-    match (plain, in_parts) {
-        (Ok(wishes), _) if nowhere(&wishes) => Err(reader.not_understood("say where it is to go")),
-        (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
-        (Err(error), _) => {
-            let unknown = |telling| reader.in_parts(&|_| true, &|_| true, telling);
-            let has_parts = reader.lexemes.iter().rev().skip(1).any(super::lexer::is_mark);
-            let by_shape = || {
-                let found = has_parts.then(|| unknown(Telling::Shape)).flatten()?;
-                (!found.iter().flatten().any(is_nowhere)).then_some(found)
-            };
-            let unknown = || unknown(Telling::Words).or_else(by_shape);
-            reader.complaint().or_else(unknown).ok_or(error)
-        }
-    }
-}
-
-/// Whether somebody has what a wish asks for, whatever it stands on; and whether it moves nobody who is not spoken of.
-fn is_known(wish: &Wish, is_new: &dyn Fn(&wish::NewThing) -> bool, speaks_of_self: bool) -> bool {
-    let is_viewer = |what: &super::clause::Reference| {
-        what.target == super::clause::Target::Here || ["we", "us"].contains(&what.text.as_str())
-    };
-    match wish {
-        // "Get a bench for the kids" moves nobody.
-        Wish::Move { what, .. } => speaks_of_self || !what.iter().any(is_viewer),
-        Wish::Add { things, .. } => things.iter().all(is_new),
-        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
-        Wish::When { then, .. }
-        | Wish::WhenPassage { then, .. }
-        | Wish::WhenLarger { then, .. }
-        | Wish::Given { then, .. } => is_known(then, is_new, speaks_of_self),
-        Wish::All(wishes) => wishes.iter().all(|wish| is_known(wish, is_new, speaks_of_self)),
-        _ => true,
-    }
 }
 
 fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {

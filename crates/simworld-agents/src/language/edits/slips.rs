@@ -128,6 +128,26 @@ pub(super) fn correct(
     stock: &Stock,
     streets: &StreetNames,
 ) {
+    drop_points_of_short_forms(words, lexemes);
+    let known = Known { own: Own { stock }, names, streets };
+    let mut at = 0;
+    while at < lexemes.len() {
+        if let Some(right) = known.respelt(words, lexemes, at) {
+            let lexeme = lexemes[at].clone();
+            let part =
+                |part: String| Lexeme { lemma: base_form(&part), token: Token::Word(part), ..lexeme.clone() };
+            lexemes.splice(at..=at, right.into_iter().map(part));
+        }
+        at += 1;
+    }
+    let new_names = new_names(words, lexemes);
+    correct_but(lexemes, names, &|word| {
+        known.own.contains(word) || streets.has_word(word) || new_names.iter().any(|name| name == word)
+    });
+}
+
+/// "Elm St.": such a point ends nothing.
+fn drop_points_of_short_forms(words: &str, lexemes: &mut Vec<Lexeme>) {
     let mut at = 1;
     while at < lexemes.len() {
         let short =
@@ -138,76 +158,77 @@ pub(super) fn correct(
             at += 1;
         }
     }
-    let own = Own { stock };
-    let mut at = 0;
-    while at < lexemes.len() {
-        let here = at;
-        at += 1;
-        let Token::Word(word) = &lexemes[here].token else { continue };
-        // "Tow the car" is an order, and "tow benches" are two.
-        let is_tow = word == "tow"
-            && match lexemes.get(here + 1).map(|next| &next.token) {
-                Some(Token::Word(next)) => TOWED.contains(&next.as_str()),
-                None | Some(Token::Comma | Token::Break | Token::Id(_)) => true,
-                _ => false,
-            };
-        if is_tow {
-            continue;
+}
+
+/// "Tow the car" is an order, and "tow benches" are two.
+fn is_tow(lexemes: &[Lexeme], at: usize) -> bool {
+    match lexemes.get(at + 1).map(|next| &next.token) {
+        Some(Token::Word(next)) => TOWED.contains(&next.as_str()),
+        None | Some(Token::Comma | Token::Break | Token::Id(_)) => true,
+        _ => false,
+    }
+}
+
+/// Where words are known.
+struct Known<'a> {
+    own: Own<'a>,
+    names: &'a Names<'a>,
+    streets: &'a StreetNames,
+}
+
+impl Known<'_> {
+    /// The words that were meant by one, if it is misspelt, or two that are written as one.
+    fn respelt(&self, words: &str, lexemes: &[Lexeme], at: usize) -> Option<Vec<String>> {
+        let Token::Word(word) = &lexemes[at].token else { return None };
+        if word == "tow" && is_tow(lexemes, at) {
+            return None;
         }
-        // "Harbor Road" where the road is called Harbour Road.
-        let british = word.strip_suffix("or").map(|stem| format!("{stem}our"));
-        if let Some(british) = british
-            && !names.has_word(word)
-            && !streets.has_word(word)
-            && (names.has_word(&british) || streets.has_word(&british))
-        {
-            lexemes[here].token = Token::Word(british);
-            lexemes[here].lemma = None;
-            continue;
+        if let Some(british) = self.british(word) {
+            return Some(vec![british]);
         }
         let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());
-        // "Limes" are no slip of "times".
-        let written = &words[lexemes[here].start..lexemes[here].end];
-        let is_plural = !written.contains(['\'', '’'])
-            && super::super::sorts::singulars(word).skip(1).any(|word| stock.has_word(&word));
-        if right.is_none()
-            && (is_plural
-                || own.contains(word)
-                || is_known(word)
-                || names.has_word(word)
-                || streets.has_word(word))
-        {
-            continue;
+        if right.is_none() && self.has(word, &words[lexemes[at].start..lexemes[at].end]) {
+            return None;
         }
         // Names are written with a capital, and may be anything.
-        let is_name = here > 0 && words[lexemes[here].start..].starts_with(char::is_uppercase);
-        if let Some(parts) = compound(word, stock) {
-            let lexeme = lexemes[here].clone();
-            let part =
-                |part: String| Lexeme { lemma: base_form(&part), token: Token::Word(part), ..lexeme.clone() };
-            lexemes.splice(here..=here, parts.into_iter().map(part));
-        } else if let Some(right) = right.or_else(|| nearest(word, &own).filter(|_| !is_name)) {
-            lexemes[here].lemma = base_form(&right);
-            lexemes[here].token = Token::Word(right);
-        }
+        let is_name = at > 0 && words[lexemes[at].start..].starts_with(char::is_uppercase);
+        let one = || right.or_else(|| nearest(word, &self.own).filter(|_| !is_name));
+        compound(word, self.own.stock).or_else(|| one().map(|right| vec![right]))
     }
-    // A new name is any word.
-    let renames = lexemes.iter().any(|lexeme| {
-        matches!(&lexeme.token, Token::Word(word) if ["rename", "call", "name", "christen", "label", "called", "named"].contains(&word.as_str()))
-    });
-    let capital = |lexeme: &&Lexeme| words[lexeme.start..].starts_with(char::is_uppercase);
-    let new_names: Vec<String> = lexemes
+
+    /// "Harbor Road" where the road is called Harbour Road.
+    fn british(&self, word: &str) -> Option<String> {
+        let is_name = |word: &str| self.names.has_word(word) || self.streets.has_word(word);
+        let british = word.strip_suffix("or").map(|stem| format!("{stem}our"))?;
+        (!is_name(word) && is_name(&british)).then_some(british)
+    }
+
+    /// Whether a word is one. "Limes" are no slip of "times".
+    fn has(&self, word: &str, written: &str) -> bool {
+        let is_plural = !written.contains(['\'', '’'])
+            && super::super::sorts::singulars(word).skip(1).any(|word| self.own.stock.has_word(&word));
+        is_plural
+            || self.own.contains(word)
+            || is_known(word)
+            || self.names.has_word(word)
+            || self.streets.has_word(word)
+    }
+}
+
+/// What is written with a capital where something is given a name: that is any word.
+fn new_names(words: &str, lexemes: &[Lexeme]) -> Vec<String> {
+    const NAMES: &[&str] = &["rename", "call", "name", "christen", "label", "called", "named"];
+    let renames = lexemes
         .iter()
-        .filter(|_| renames)
-        .filter(capital)
+        .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if NAMES.contains(&word.as_str())));
+    let capital = |lexeme: &&Lexeme| words[lexeme.start..].starts_with(char::is_uppercase);
+    let named = lexemes.iter().filter(|_| renames).filter(capital);
+    named
         .filter_map(|lexeme| match &lexeme.token {
             Token::Word(word) => Some(word.clone()),
             _ => None,
         })
-        .collect();
-    correct_but(lexemes, names, &|word| {
-        own.contains(word) || streets.has_word(word) || new_names.iter().any(|name| name == word)
-    });
+        .collect()
 }
 
 /// "Sportscar": the words of an asset's name that are written as one.

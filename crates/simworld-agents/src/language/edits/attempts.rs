@@ -1,0 +1,194 @@
+//! The ways in which a sentence is understood, from the plainest to the boldest: as it stands, part by part, told in other words, by
+//! the shape of its parts, with what its pronouns stand for, sentence by sentence.
+
+use simworld_core::scene::Scene;
+use simworld_core::seam::PlanError;
+
+use super::super::clause::{Reference, Target};
+use super::super::lexer::{Lexeme, Token, is_mark};
+use super::super::lexicon::longest_phrase;
+use super::memo::Memo;
+use super::parse::Reader;
+use super::parts::Telling;
+use super::resolve::Finder;
+use super::wish::{NewThing, Wish};
+use super::{Focus, view_of};
+use crate::editing::{EditError, Stock};
+
+/// Places with which a sentence begins that puts something there.
+#[rustfmt::skip]
+const PLACES: &[&str] = &["next to", "in front of", "behind", "beside", "to the left of", "to the right of", "left of", "right of", "near", "close to", "opposite"];
+/// Words for who speaks and who is spoken to.
+const SELF: &[&str] = &["me", "myself", "i", "us", "you", "yourself"];
+
+/// The wishes of a sentence, each in all its readings.
+type Wishes = Vec<Vec<Wish>>;
+/// A sentence in other words, with what was read of it.
+type Retold = (Vec<Lexeme>, Memo);
+
+/// The wishes of a sentence: as it stands or, if that is not understood, or asks for what nobody has or what is not there,
+/// in some other way.
+pub(super) fn wishes_of(
+    reader: Reader<'_>,
+    scene: &dyn Scene,
+    stock: &Stock,
+    focus: &Focus,
+) -> Result<Wishes, PlanError> {
+    let speaks_of_self = reader
+        .lexemes
+        .iter()
+        .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if SELF.contains(&word.as_str())));
+    let begins_with_place = longest_phrase(reader.lexemes, PLACES).is_some();
+    Attempts { reader, scene, stock, focus, speaks_of_self, begins_with_place }.wishes()
+}
+
+/// A sentence that is tried.
+struct Attempts<'a> {
+    reader: Reader<'a>,
+    scene: &'a dyn Scene,
+    stock: &'a Stock,
+    focus: &'a Focus,
+    speaks_of_self: bool,
+    begins_with_place: bool,
+}
+
+impl Attempts<'_> {
+    fn wishes(&self) -> Result<Wishes, PlanError> {
+        let plain = plainly(&self.reader);
+        if plain.as_ref().is_ok_and(|wishes| self.holds(wishes)) {
+            return plain;
+        }
+        let in_parts = self.in_parts(&self.reader, Telling::Words);
+        if let Some(wishes) = in_parts.as_ref().filter(|wishes| self.is_there(wishes)) {
+            return Ok(wishes.clone());
+        }
+        let ways: Vec<Retold> =
+            self.reader.retold().into_iter().map(|lexemes| (lexemes, Memo::default())).collect();
+        let mut answer = None;
+        let bolder = self
+            .told_again(&ways, &mut answer)
+            .or_else(|| self.by_shape(&self.reader))
+            .or_else(|| ways.iter().find_map(|way| self.by_shape(&self.over(way))))
+            .or_else(|| self.with_antecedents())
+            .or_else(|| self.sentence_by_sentence(&ways));
+        if let Some(wishes) = bolder {
+            return Ok(wishes);
+        }
+        match answer.filter(|_| plain.is_err()) {
+            Some(answer) => answer,
+            None => self.at_last(plain, in_parts),
+        }
+    }
+
+    fn in_parts(&self, reader: &Reader<'_>, telling: Telling) -> Option<Wishes> {
+        reader.in_parts(&|wish| self.is_known(wish), &|wishes| self.is_there(wishes), telling)
+    }
+
+    /// In other words that mean the same; what is not there, or what nobody has, is noted as a better answer than that nothing is
+    /// understood.
+    fn told_again(&self, ways: &[Retold], answer: &mut Option<Result<Wishes, PlanError>>) -> Option<Wishes> {
+        ways.iter().find_map(|way| {
+            let reader = self.over(way);
+            let plain = plainly(&reader);
+            if plain.as_ref().is_ok_and(|wishes| self.holds(wishes)) {
+                return plain.ok();
+            }
+            let in_parts = self.in_parts(&reader, Telling::Words).filter(|wishes| self.is_there(wishes));
+            if !matches!(plain, Err(PlanError::NotUnderstood { .. })) {
+                answer.get_or_insert(plain);
+            }
+            in_parts
+        })
+    }
+
+    /// By the shape of its parts. What is told along the way may have said where.
+    fn by_shape(&self, reader: &Reader<'_>) -> Option<Wishes> {
+        let found = self.in_parts(reader, Telling::Shape)?;
+        (self.is_there(&found) && !found.iter().flatten().any(is_nowhere)).then_some(found)
+    }
+
+    fn with_antecedents(&self) -> Option<Wishes> {
+        self.reader.with_antecedents(&|wish| self.is_known(wish), &|wishes| self.is_there(wishes))
+    }
+
+    fn sentence_by_sentence(&self, ways: &[Retold]) -> Option<Wishes> {
+        let mut readers = std::iter::once(self.reader).chain(ways.iter().map(|way| self.over(way)));
+        readers.find_map(|reader| {
+            reader.of_sentences(&|wish| self.is_known(wish), &|wishes| self.is_there(wishes))
+        })
+    }
+
+    /// What was read at first, where nothing better was found, or what is wrong with it.
+    fn at_last(
+        &self,
+        plain: Result<Wishes, PlanError>,
+        in_parts: Option<Wishes>,
+    ) -> Result<Wishes, PlanError> {
+        // What is told of a place first is not put anywhere else.
+        let nowhere = |wishes: &Wishes| self.begins_with_place && wishes.iter().flatten().any(is_nowhere);
+        match (plain, in_parts) {
+            (Ok(wishes), _) if nowhere(&wishes) => Err(self.reader.not_understood("say where it is to go")),
+            (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
+            (Err(error), _) => {
+                let unknown = |telling| self.reader.in_parts(&|_| true, &|_| true, telling);
+                let has_parts = self.reader.lexemes.iter().rev().skip(1).any(is_mark);
+                let by_shape = || {
+                    let found = has_parts.then(|| unknown(Telling::Shape)).flatten()?;
+                    (!found.iter().flatten().any(is_nowhere)).then_some(found)
+                };
+                let unknown = || unknown(Telling::Words).or_else(by_shape);
+                self.reader.complaint().or_else(unknown).ok_or(error)
+            }
+        }
+    }
+
+    /// A reader of the same sentence in other words.
+    fn over<'b>(&'b self, (lexemes, memo): &'b Retold) -> Reader<'b> {
+        let Reader { words, names, view, .. } = self.reader;
+        Reader { lexemes, memo, words, names, view, at: 0, depth: 0 }
+    }
+
+    /// Whether all wishes can be granted, as far as that is seen at once.
+    fn holds(&self, wishes: &Wishes) -> bool {
+        wishes.iter().flatten().all(|wish| self.is_known(wish)) && self.is_there(wishes)
+    }
+
+    /// Whether what the first wish is about is there. What later wishes are about may be made by earlier ones.
+    fn is_there(&self, wishes: &[Vec<Wish>]) -> bool {
+        let Self { scene, stock, focus, .. } = *self;
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus) };
+        let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
+        // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
+        let is_lost = self.begins_with_place && wishes.iter().flatten().any(is_nowhere);
+        !is_lost && !wishes.first().is_some_and(|readings| readings.iter().all(missing))
+    }
+
+    /// Whether somebody has what a wish asks for, whatever it stands on; and whether it moves nobody who is not spoken of.
+    fn is_known(&self, wish: &Wish) -> bool {
+        let is_new = |thing: &NewThing| thing.make(self.stock).is_ok();
+        let is_viewer =
+            |what: &Reference| what.target == Target::Here || ["we", "us"].contains(&what.text.as_str());
+        match wish {
+            // "Get a bench for the kids" moves nobody.
+            Wish::Move { what, .. } => self.speaks_of_self || !what.iter().any(is_viewer),
+            Wish::Add { things, .. } => things.iter().all(is_new),
+            Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
+            Wish::When { then, .. }
+            | Wish::WhenPassage { then, .. }
+            | Wish::WhenLarger { then, .. }
+            | Wish::Given { then, .. } => self.is_known(then),
+            Wish::All(wishes) => wishes.iter().all(|wish| self.is_known(wish)),
+            _ => true,
+        }
+    }
+}
+
+/// Whether something new is to stand nowhere in particular.
+fn is_nowhere(wish: &Wish) -> bool {
+    matches!(wish, Wish::Add { at, .. } if at.is_empty())
+}
+
+/// As it stands.
+fn plainly(reader: &Reader<'_>) -> Result<Wishes, PlanError> {
+    Reader { ..*reader }.sentence()
+}
