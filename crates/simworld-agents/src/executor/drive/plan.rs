@@ -227,7 +227,9 @@ fn by_road(
         };
         found.changes.insert(0, mirror);
     }
-    pull_in(&mut found.path, berth.aside, pull);
+    // Behind a junction there may be less room: nobody begins to pull in within the turn.
+    let has_room = to.lane == from.lane || berth.on.station >= pull;
+    pull_in(&mut found.path, berth.aside, if has_room { pull } else { PULL_IN });
     Some((found, berth))
 }
 
