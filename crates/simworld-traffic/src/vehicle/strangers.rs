@@ -48,11 +48,13 @@ pub(super) fn meets(scene: &Scene<'_>, vehicle: &Vehicle, (way, front): (usize, 
     let asker = Asker::on_way(scene, vehicle, way, front);
     let met = |conflict: &&Conflict| {
         let to_zone = conflict.own.enter() - front;
+        if !(stopping..horizon(vehicle.v)).contains(&to_zone) {
+            return false;
+        }
         let bodies = on_track(&scene.sight, (tracks.lanes + conflict.way as usize) as Track).iter();
         let mut moving = bodies
             .filter(|body| body.v > STANDING && conflict.pairs.has(vehicle.length(), body.far - body.near));
-        (stopping..horizon(vehicle.v)).contains(&to_zone)
-            && moving.any(|body| crosses(scene, &asker, conflict, body))
+        moving.any(|body| crosses(scene, &asker, conflict, body))
     };
     let zones = tracks.conflicts[way].iter().filter(met).map(|conflict| conflict.own.enter() - front);
     zones.min_by(f64::total_cmp)

@@ -7,7 +7,7 @@
 
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token, is_mark};
-use super::super::lexicon::{is_animate, longest_phrase};
+use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
 use super::forms::word_at;
 use super::parse::Reader;
@@ -87,7 +87,7 @@ impl Reader<'_> {
             let said = words[at..after].to_vec();
             // "There's a helicopter in the park": it is not the park, nor is it known.
             let is_unknown = (0..at).any(|at| matches!(self.word(at), Some("a" | "an" | "some" | "another")));
-            let is_somebody = self.is_of_somebody(&thing);
+            let is_somebody = self.is_somebody(&thing);
             if is_unknown && !is_somebody {
                 at = after;
                 continue;
@@ -114,20 +114,7 @@ impl Reader<'_> {
         let stem = self.word(at)?.strip_suffix('s').filter(|_| is_owner)?;
         let owner = vec![word_at(lexeme, stem)];
         let (ids, _) = self.names.exact(&owner)?;
-        self.is_of_somebody(&Reference::to(Target::Named(ids), stem.to_owned())).then_some(owner)
-    }
-
-    /// Whether it is a person, a dog or a robot that is named.
-    fn is_of_somebody(&self, one: &Reference) -> bool {
-        match &one.target {
-            Target::Any(class) => {
-                !class.kinds().is_empty() && class.kinds().iter().all(|kind| is_animate(*kind))
-            }
-            Target::Named(ids) => {
-                ids.iter().all(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
-            }
-            _ => false,
-        }
+        self.is_somebody(&Reference::to(Target::Named(ids), stem.to_owned())).then_some(owner)
     }
 }
 

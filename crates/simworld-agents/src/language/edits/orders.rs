@@ -49,7 +49,7 @@ impl Reader<'_> {
     }
 
     /// Whether it is a person, a dog or a robot that is named.
-    fn is_somebody(&self, one: &super::super::clause::Reference) -> bool {
+    pub(super) fn is_somebody(&self, one: &super::super::clause::Reference) -> bool {
         use super::super::clause::Target;
         use super::super::lexicon::is_animate;
         match &one.target {
