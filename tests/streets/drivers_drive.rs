@@ -384,6 +384,47 @@ fn a_blocked_street_is_left_by_turning_round_in_it() {
     assert!(least < 5.0, "it left by the other end of the street, as far as x = {least:.1} m");
 }
 
+/// The street is blocked, and along its other side stands a row that leaves no room to come round: one begins to turn, gives it up,
+/// looks ahead again, and drives on when the street is free.
+#[test]
+fn who_has_no_room_to_turn_round_goes_on_when_the_way_is_free() {
+    let mut town = Town::new();
+    let wall = put(&mut town, EntityKind::Prop, (85.0, 0.0), (1.0, 7.0));
+    for place in 0..8 {
+        put(&mut town, EntityKind::Prop, (48.0 + 4.8 * f64::from(place), 2.45), (4.5, 2.1));
+    }
+    let car = town.car;
+    let mut run = town.run(car, "drive to the hospital");
+    let (mut ended, mut most_turned, mut looks_ahead) = (Progress::Running, 0.0_f64, false);
+    for _ in 0..9000 {
+        ended = run.step();
+        let world = run.simulation.world();
+        let own = world.entity(car).expect("it is there");
+        let turned = yaw_of(own.pose).abs();
+        if !looks_ahead {
+            most_turned = most_turned.max(turned);
+            looks_ahead = most_turned > 0.5 && turned < 0.4;
+        }
+        let touched = world
+            .iter()
+            .find(|other| other.kind == EntityKind::Prop && own.obb().footprints_overlap(&other.obb()));
+        assert!(
+            touched.is_none(),
+            "it touches {:?} at {:?}",
+            touched.map(|other| other.planar()),
+            run.car_at()
+        );
+        if looks_ahead && world.entity(wall).is_some() {
+            run.simulation.submit(Command::Remove { id: wall });
+        }
+        if ended != Progress::Running {
+            break;
+        }
+    }
+    assert!(looks_ahead, "it never looked ahead again, and had turned by {most_turned:.2}");
+    assert_eq!(ended, Progress::Done, "{:?} at {:?}", run.executor.cannot_arrive(), run.car_at());
+}
+
 #[test]
 fn who_is_walled_in_says_by_what() {
     let mut town = Town::new();

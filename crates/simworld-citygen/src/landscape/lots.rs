@@ -84,6 +84,9 @@ pub(super) struct Builder<'a> {
     network: &'a RoadNetwork,
     /// Places beside roads with the direction to the road and how far the road's edge is: nearest to the middle first.
     fronts: Vec<(Point2, f64, f64)>,
+    /// Of sizes that were looked for: which front is the first that was not refused. Nothing is taken away, so what was refused once
+    /// need not be tried again.
+    refused: Vec<(Vector2, usize)>,
     pub(super) lots: Vec<Lot>,
 }
 
@@ -105,17 +108,25 @@ impl<'a> Builder<'a> {
         }
         let away = |front: &(Point2, f64, f64)| (front.0 - middle).norm();
         fronts.sort_by(|a, b| away(a).total_cmp(&away(b)));
-        Self { grid, network, fronts, lots: Vec::new() }
+        Self { grid, network, fronts, refused: Vec::new(), lots: Vec::new() }
     }
 
     /// Gives a wish the first lot that is free, dry and even enough; false if there is none.
     pub(super) fn place(&mut self, wish: &Wish) -> bool {
-        let found = self.fronts.iter().find_map(|(at, facing, edge)| {
-            let out = -direction(*facing) * (edge + SETBACK + wish.size.x * 0.5);
-            self.lot(wish, at + out, *facing)
+        let known = self.refused.iter().position(|(size, _)| *size == wish.size);
+        let known = known.unwrap_or_else(|| {
+            self.refused.push((wish.size, 0));
+            self.refused.len() - 1
         });
-        self.lots.extend(found.clone());
-        found.is_some()
+        let first = self.refused[known].1;
+        let found = self.fronts.iter().enumerate().skip(first).find_map(|(index, (at, facing, edge))| {
+            let out = -direction(*facing) * (edge + SETBACK + wish.size.x * 0.5);
+            Some((index, self.lot(wish, at + out, *facing)?))
+        });
+        self.refused[known].1 = found.as_ref().map_or(self.fronts.len(), |(index, _)| *index);
+        let is_found = found.is_some();
+        self.lots.extend(found.map(|(_, lot)| lot));
+        is_found
     }
 
     /// The lot at a place, if it may be built on.

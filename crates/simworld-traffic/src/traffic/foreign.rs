@@ -11,8 +11,8 @@ use crate::vehicle::{Obstacle, Tracks};
 const CELL: f64 = 8.0;
 /// Cells to a row of a tile.
 const TILE: i64 = 32;
-/// Half the width that a vehicle sweeps, with a margin, m.
-const SWEPT: f64 = 1.3;
+/// Half the width that the broadest vehicle sweeps, with a margin, m.
+const SWEPT: f64 = 1.45;
 /// Who reaches no farther than this to all sides walks, or rides something small: drivers stop before the strip for them, m.
 const PERSON: f64 = 1.5;
 /// Who is slower than this stands, m/s.
@@ -155,7 +155,7 @@ impl Finder {
                 continue; // drivers stop before the strip, not before the person
             }
             let first = obstacles.len();
-            for (at, reach) in body.discs() {
+            for (at, reach) in body.discs().chain(body.corners().into_iter().filter(|_| !is_person)) {
                 for track in self.tracks_at(at) {
                     let near = polyline::closest(tracks.path(track), &at);
                     let Some(near) = near.filter(|near| near.distance < SWEPT + reach) else { continue };
@@ -226,6 +226,13 @@ impl Foreign {
             let share = if count > 0.0 { f64::from(index) / count - 1.0 } else { 0.0 };
             (middle + along * (span * share), reach)
         })
+    }
+
+    /// Its corners, which its discs do not reach when it stands at an angle, as discs of no size.
+    fn corners(&self) -> [(Point2, f64); 4] {
+        let ahead = self.direction.try_normalize(1e-9).unwrap_or_else(Vector2::x);
+        let (long, wide) = (ahead * self.radius, Vector2::new(-ahead.y, ahead.x) * self.half_width);
+        [long + wide, long - wide, -long + wide, -long - wide].map(|offset| (self.position + offset, 0.0))
     }
 
     /// It as an obstacle on a track.

@@ -19,6 +19,8 @@ const LONGEST: f64 = 20.0;
 /// Who is slower than this does not go on past a body that leaves less than this beside it, m/s and m.
 const CRAWLS: f64 = 3.0;
 const TO_SIDE: f64 = 0.2;
+/// Half the width that a vehicle wants for itself, m; the broad ones more, by what they are broader.
+const USUAL: f64 = 1.3;
 
 /// A track as its drivers see it.
 pub(super) struct Lane<'a> {
@@ -342,7 +344,9 @@ impl View<'_> {
 
     /// Stops behind foreign bodies on the track.
     fn beware(&mut self, sight: &Sight<'_>, track: Track, half_width: f64) {
-        if let Some(obstacle) = first_obstacle(sight, track, self.s) {
+        let in_way = |body: &&Obstacle| body.aside < (half_width + TO_SIDE).max(USUAL);
+        if let Some(obstacle) = on_track(sight, track).iter().filter(in_way).find(|body| body.near >= self.s)
+        {
             // Nearer to what stands than to what may move.
             let closer = if obstacle.v > STANDING { 0.0 } else { self.idm.gap * 0.5 };
             self.follow(obstacle.near - self.s + closer, obstacle.v);

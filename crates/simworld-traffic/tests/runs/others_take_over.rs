@@ -79,7 +79,11 @@ fn who_brakes_makes_a_queue_and_given_back_drives_on() {
 }
 
 /// Some drive as fast and change lanes as often as they can; returns the state, now and then.
-fn reckless(workers: Option<Box<dyn Workers + Send + Sync>>, seed: u64) -> (Traffic, Vec<StateDigest>, u64) {
+fn reckless(
+    workers: Option<Box<dyn Workers + Send + Sync>>,
+    seed: u64,
+    steps: u32,
+) -> (Traffic, Vec<StateDigest>, u64) {
     let config = TrafficConfig { vehicles: 150, pedestrians: 40, ..TrafficConfig::default() };
     let mut traffic = Traffic::new(grid(4, 2), &config, Seed(seed)).expect("the settings are in range");
     if let Some(workers) = workers {
@@ -87,7 +91,7 @@ fn reckless(workers: Option<Box<dyn Workers + Send + Sync>>, seed: u64) -> (Traf
     }
     let lanes = traffic.network().lanes.len() as u32;
     let (mut before, mut digests, mut on_red) = (vec![u32::MAX; 150], Vec::new(), 0);
-    for step in 0..3000_u32 {
+    for step in 0..steps {
         if step % 70 == 0 {
             let lane = [LaneWish::Left, LaneWish::Right, LaneWish::Keep][(step / 70 % 3) as usize];
             for id in (0..150).step_by(7) {
@@ -107,7 +111,7 @@ fn reckless(workers: Option<Box<dyn Workers + Send + Sync>>, seed: u64) -> (Traf
                 on_red += u64::from(red);
             }
         }
-        if step % 300 == 0 {
+        if step % 100 == 0 {
             digests.push(traffic.digest());
         }
     }
@@ -118,7 +122,7 @@ fn reckless(workers: Option<Box<dyn Workers + Send + Sync>>, seed: u64) -> (Traf
 fn the_reckless_touch_nobody_and_pass_no_line_without_leave() {
     let seeds = if std::env::var_os("SIMWORLD_SOAK").is_some() { 40 } else { 3 };
     for seed in 1..=seeds {
-        let (traffic, _, on_red) = reckless(None, seed);
+        let (traffic, _, on_red) = reckless(None, seed, 3000);
         let counters = traffic.counters();
         assert!(on_red <= counters.dilemmas, "{on_red} entered on red: {counters:?}");
         assert!(counters.forced_stops == 0, "{counters:?}");
@@ -147,9 +151,9 @@ fn who_is_driven_may_drive_faster_than_others_would() {
 
 #[test]
 fn bits_do_not_depend_on_workers_and_saved_control_goes_on() {
-    let alone = reckless(None, 9).1;
+    let alone = reckless(None, 9, 500).1;
     for threads in [2, 8] {
-        assert_eq!(reckless(Some(Box::new(Threads(threads))), 9).1, alone, "{threads} threads");
+        assert_eq!(reckless(Some(Box::new(Threads(threads))), 9, 500).1, alone, "{threads} threads");
     }
     let make = || {
         let mut world = World::new();

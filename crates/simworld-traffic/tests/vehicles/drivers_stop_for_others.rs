@@ -7,7 +7,7 @@ use simworld_core::geometry::{Point3, Vector2, direction, planar, pose_facing, y
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan, Turn, polyline};
 use simworld_core::scene::Shape;
 use simworld_core::seed::Seed;
-use simworld_traffic::{Body, Foreign, Traffic, TrafficConfig};
+use simworld_traffic::{Body, Foreign, Traffic, TrafficConfig, VehicleType};
 
 #[test]
 fn drivers_stop_behind_a_body_on_their_lane() {
@@ -79,6 +79,51 @@ fn nobody_starts_into_a_body_that_swings_round_before_it() {
     let gone =
         traffic.vehicle(first.id).is_none_or(|now| (planar(&now.pose) - planar(&first.pose)).norm() > 20.0);
     assert!(gone, "it never started again");
+}
+
+/// A car that has half pulled out leaves room for cars and none for buses.
+#[test]
+fn the_broad_stop_where_the_narrow_have_room() {
+    for (width, passes) in [(1.8, true), (2.5, false)] {
+        let types = vec![VehicleType { width, ..VehicleType::default() }];
+        let config = TrafficConfig { vehicles: 40, pedestrians: 0, types, ..TrafficConfig::default() };
+        let network = Arc::new(
+            RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default())
+                .expect("a grid is a network"),
+        );
+        let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(1)).expect("sound settings");
+        let path = &network
+            .lanes
+            .iter()
+            .find(|lane| lane.length > 80.0 && lane.is_driven())
+            .expect("streets are long")
+            .path;
+        let (place, yaw) = polyline::at(path, 60.0);
+        let edge = 1.35;
+        let middle = place - direction(yaw + FRAC_PI_2) * (edge + 0.9);
+        let parked = Foreign {
+            radius: 2.25,
+            half_width: 0.9,
+            direction: direction(yaw),
+            ..Foreign::standing(middle, 0.0)
+        };
+        let solid = Shape::cuboid(4.5, 1.8, 1.5).obb(&pose_facing(Point3::new(middle.x, middle.y, 0.0), yaw));
+        let (mut beside, mut behind) = (0, 0);
+        for step in 0..2000 {
+            traffic.step_among(&[parked], 0.1);
+            for vehicle in traffic.vehicles() {
+                let touches = vehicle.shape.obb(&vehicle.pose).footprints_overlap(&solid);
+                assert!(!touches, "step {step}: {vehicle:?} drove along the car");
+                let way = planar(&vehicle.pose) - place;
+                let along = way.dot(&direction(yaw));
+                let is_there = way.perp(&direction(yaw)).abs() < 0.5 && along.abs() < 12.0;
+                beside += usize::from(is_there && along.abs() < 2.0);
+                behind += usize::from(is_there && along < -4.0 && vehicle.twist.ground_speed() < 0.1);
+            }
+        }
+        assert_eq!(beside > 0, passes, "{width} m wide: {beside} steps beside it, {behind} behind it");
+        assert_eq!(behind > 500, !passes, "{width} m wide: {beside} steps beside it, {behind} behind it");
+    }
 }
 
 /// Strangers run through junctions as if they were alone, at any time. Who has leave to cross lets them pass, where a driver of the

@@ -27,7 +27,7 @@ pub(super) struct Seen {
     pub(super) velocity: Vector2,
     pub(super) half_length: f64,
     pub(super) corners: [Point2; 4],
-    solid: Obb,
+    pub(super) solid: Obb,
 }
 
 impl Seen {
@@ -104,7 +104,7 @@ pub(super) fn would_touch(own: &Own<'_>, around: &[Seen], (ahead, steer): (f64, 
 }
 
 /// The solid of a vehicle that has rolled so far, m, with its front wheels at an angle, radians: the rear axle goes round a circle.
-fn rolled(own: &Own<'_>, distance: f64, steer: f64) -> Obb {
+pub(super) fn rolled(own: &Own<'_>, distance: f64, steer: f64) -> Obb {
     let wheelbase = Driver::of_length(own.half_length * 2.0).wheelbase;
     let turn = distance * tan(steer) / wheelbase;
     let left = Vector2::new(-own.ahead.y, own.ahead.x);

@@ -302,6 +302,11 @@ impl Line {
         }
     }
 
+    /// Whether one has come out of the junction behind it.
+    pub(super) fn is_behind(&self, network: &RoadNetwork, station: f64) -> bool {
+        self.is_passed && self.rest(network) < station
+    }
+
     /// Where the way behind it ends, m along the path.
     fn rest(&self, network: &RoadNetwork) -> f64 {
         self.station + network.connections[self.turn.index()].length

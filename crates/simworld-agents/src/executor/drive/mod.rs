@@ -10,8 +10,10 @@
 //! [`World::actuate`](simworld_core::scene::World::actuate)).
 
 mod around;
+mod back;
 mod bend;
 mod change;
+mod guard;
 mod junction;
 mod kerb;
 mod pass;
@@ -84,6 +86,8 @@ pub(super) struct Driving {
     stuck_at: f64,
     backing: f64,
     turning: Option<Turning>,
+    /// Whether the last look found no room.
+    is_held: bool,
     /// Roads that turned out to be blocked, by the first lane of their leg.
     closed: Vec<LaneId>,
 }
@@ -158,7 +162,7 @@ impl RuleExecutor {
             return Ok(Arrival::Underway);
         }
         if way.backing > 0.0 {
-            way.back(own, &around, dt, out);
+            way.back(scene, own, &around, dt, out);
             return Ok(Arrival::Underway);
         }
         if way.locate(own.at) > ASTRAY {
@@ -174,7 +178,9 @@ impl RuleExecutor {
         let allowed = way.allowed(scene, vehicle, own, &around, speed, dt)?;
         self.mind_progress(scene, vehicle, own, way, (&allowed, &around))?;
         let window = way.window();
-        out.extend(way.driver.drive(vehicle.pose, own.speed, &window, allowed.speed, dt));
+        let mut actions = way.driver.drive(vehicle.pose, own.speed, &window, allowed.speed, dt);
+        way.last_look(own, &around, &mut actions);
+        out.extend(actions);
         Ok(Arrival::Underway)
     }
 
@@ -213,6 +219,8 @@ impl RuleExecutor {
         }
         if let Some(obstacle) = obstacle {
             way.get_past(scene, vehicle, own, around, &obstacle);
+        } else if way.is_held {
+            way.back_off(own, around);
         }
         Ok(())
     }
@@ -238,21 +246,5 @@ impl Driving {
             window.push(last + way * 10.0);
         }
         window
-    }
-
-    /// Goes back a little, straight, if nobody is behind.
-    fn back(&mut self, own: &Own<'_>, around: &[Seen], dt: f64, out: &mut Vec<Action>) {
-        const BACKWARDS: f64 = 0.3;
-        self.backing -= (-own.speed * dt).max(0.01);
-        if self.backing <= 0.0 || around::would_touch(own, around, (-0.8, 0.0), 0.2) {
-            self.backing = 0.0;
-            self.station = (self.station - 6.0).max(0.0);
-            self.locate(own.at);
-            self.best = self.station;
-            out.push(Action::Brake { level: 1.0 });
-        } else {
-            let level = if own.speed < -1.5 { 0.0 } else { -BACKWARDS };
-            out.extend([Action::Throttle { level }, Action::Steer { angle: 0.0 }]);
-        }
     }
 }

@@ -150,15 +150,7 @@ impl Driving {
         }
         bent.extend(polyline::slice(&self.path, end, length).into_iter().skip(1));
         // What lies beyond is as much farther away as the way round is longer.
-        let longer = polyline::length(&bent) - length;
-        let later = |station: &mut f64| *station += if *station >= end { longer } else { 0.0 };
-        self.lines.iter_mut().for_each(|line| later(&mut line.station));
-        self.limits.iter_mut().for_each(|(limit, _)| later(limit));
-        for change in &mut self.changes {
-            later(&mut change.begin);
-            later(&mut change.end);
-            later(&mut change.latest);
-        }
+        self.shift(end, polyline::length(&bent) - length);
         self.path = bent;
     }
 

@@ -82,6 +82,7 @@ impl Driving {
             stuck_at: 0.0,
             backing: 0.0,
             turning: None,
+            is_held: false,
             closed: wish.closed,
         })
     }
@@ -143,8 +144,8 @@ impl Driving {
     ) -> Result<(), CannotArrive> {
         let left = polyline::length(&self.path) - self.station;
         let Some((berth, network)) = self.berth.zip(scene.roads()) else { return Ok(()) };
-        // In a turn one goes on as one is: a new path would begin across it.
-        let in_last_lane = self.lines.is_empty();
+        // In a turn one goes on as one is: a new path would begin across it. A rear that is still in it makes no difference.
+        let in_last_lane = self.lines.iter().all(|line| line.is_behind(network, self.station));
         let looks = in_last_lane
             && (ALMOST_IN..IN_VIEW).contains(&left)
             && scene.clock().tick().0.is_multiple_of(LOOKS);

@@ -47,8 +47,11 @@ enum Gear {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Turning {
     road: RoadId,
-    /// The lane that leads back.
+    /// The lane that leads back, and the one that one came by.
     back: LaneId,
+    from: LaneId,
+    /// Whether there was no room to come round, and one turns to where one looked before.
+    gave_up: bool,
     gear: Gear,
     /// How long it has taken, s, and how far one has gone in this gear, m.
     spent: f64,
@@ -73,6 +76,8 @@ impl Turning {
         (!parted && !road.roundabout && is_clear).then_some(Self {
             road: id,
             back,
+            from: on,
+            gave_up: false,
             gear: Gear::Waits,
             spent: 0.0,
             gone: 0.0,
@@ -94,16 +99,15 @@ impl Driving {
     ) -> Result<(), CannotArrive> {
         let (Some(network), Some(turning)) = (scene.roads(), &mut self.turning) else { return Ok(()) };
         turning.spent += dt;
+        let back = turning.way_back(network, own);
         if turning.spent > FAILED {
-            // There is no room; perhaps what was in the way is gone by now.
-            let wish = Wish { closed: self.closed.clone(), ..Wish::to(self.goal) };
-            return self.renew(scene, vehicle, own, wish);
+            if own.ahead.dot(&back) < -TURNED {
+                // There is no room; perhaps what was in the way is gone by now.
+                let wish = Wish { closed: self.closed.clone(), ..Wish::to(self.goal) };
+                return self.renew(scene, vehicle, own, wish);
+            }
+            return turning.give_up().then_some(()).ok_or_else(|| CannotArrive::stuck(scene, own.at, None));
         }
-        let near = polyline::closest(&lane(network, turning.back).path, &own.at);
-        let back = near.map_or_else(
-            || -own.ahead,
-            |near| direction(polyline::at(&lane(network, turning.back).path, near.station).1),
-        );
         if own.ahead.dot(&back) > TURNED {
             out.push(Action::Brake { level: 0.3 });
             let closed = self.closed.clone();
@@ -128,6 +132,24 @@ impl Driving {
 }
 
 impl Turning {
+    /// Where the lane that one turns to leads, of length one.
+    fn way_back(&self, network: &RoadNetwork, own: &Own<'_>) -> Vector2 {
+        let path = &lane(network, self.back).path;
+        let near = polyline::closest(path, &own.at);
+        near.map_or_else(|| -own.ahead, |near| direction(polyline::at(path, near.station).1))
+    }
+
+    /// Turns to where one looked before, so that one does not drive on from across the street; false if that was tried.
+    fn give_up(&mut self) -> bool {
+        if self.gave_up {
+            return false;
+        }
+        std::mem::swap(&mut self.back, &mut self.from);
+        (self.gear, self.spent, self.gone, self.side) = (Gear::Waits, 0.0, 0.0, -self.side);
+        self.gave_up = true;
+        true
+    }
+
     /// Changes gear where there is no room any more, and begins when nobody comes.
     fn shift(&mut self, network: &RoadNetwork, own: &Own<'_>, around: &[Seen], dt: f64) {
         self.gone += own.speed.abs() * dt;

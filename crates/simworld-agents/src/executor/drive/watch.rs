@@ -129,7 +129,7 @@ impl Driving {
         let left = polyline::length(&self.path) - self.station;
         // One creeps up to the end, and stands there.
         let last = if left < STOPPED { 0.0 } else { stopping(left - STOPPED, BRAKING).max(0.4) };
-        let free = wish.unwrap_or(limit).min(limit).min(last).min(self.bends(own));
+        let free = wish.unwrap_or(limit).min(limit).min(last).min(self.bends(own)).min(self.askew(own));
         if free < allowed.speed {
             (allowed.speed, allowed.waits) = (free, false);
         }
@@ -226,6 +226,15 @@ impl Driving {
             along += STEP;
         }
         least.max(2.0)
+    }
+
+    /// Slowly while one does not look along the path yet: one needs more room than it has.
+    fn askew(&self, own: &Own<'_>) -> f64 {
+        /// The cosine of 25°, and m/s.
+        const ALONG: f64 = 0.906;
+        const SLOWLY: f64 = 2.0;
+        let along = direction(polyline::at(&self.path, self.station).1);
+        if own.ahead.dot(&along) < ALONG { SLOWLY } else { f64::INFINITY }
     }
 
     /// By who and what is on the path: the speed, and the first of them that forces one to slow down.
