@@ -11,7 +11,7 @@ use simworld_core::scene::EntityRef;
 
 use crate::RenderError;
 use crate::draw_list::Batch;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Matter};
 use crate::mesh::{ClipPose, Drawn, ModelId, Vertex};
 use crate::poses::Poses;
 use crate::sources::{Modelled, Source, Sources};
@@ -98,28 +98,22 @@ impl Models {
         Ok(is_new)
     }
 
-    /// Whether anything of them is cut out.
-    pub(crate) fn are_cut(&self) -> bool {
-        self.held.values().any(|held| held.cut_from < held.count)
+    /// The corners of a model that are whole, or of which something is cut out; `None` where it has none of these.
+    pub(crate) fn corners(&self, id: ModelId, matter: Matter) -> Option<Range<u32>> {
+        let held = self.held.get(&id.source)?;
+        let corners = match matter {
+            Matter::Whole => 0..held.cut_from,
+            Matter::Cut => held.cut_from..held.count,
+        };
+        (!corners.is_empty()).then_some(corners)
     }
 
-    /// Draws of a batch of a model what is whole, or what is cut out.
-    pub(crate) fn draw(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        id: ModelId,
-        instances: Range<u32>,
-        cut: bool,
-    ) {
+    /// Makes a model, in its pose, what the next draws of a pass read.
+    pub(crate) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, id: ModelId) {
         let Some(held) = self.held.get(&id.source) else { return };
-        let corners = if cut { held.cut_from..held.count } else { 0..held.cut_from };
-        if corners.is_empty() {
-            return;
-        }
         let vertices = id.pose.and_then(|pose| held.poses.get(pose)).unwrap_or(&held.vertices);
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(held.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(corners, 0, instances);
     }
 }
 

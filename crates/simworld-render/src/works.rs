@@ -69,7 +69,7 @@ impl Works {
         let shadow_resolution = config.shadow_resolution.min(gpu.largest_picture());
         let coats = Coats::new(&gpu, config.texture_memory);
         let raster = Raster::new(&gpu, shadow_resolution, config.anti_aliasing, coats.texels().layout());
-        let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
+        let scenery = Scenery::new(&gpu, raster.pipelines.scenery());
         let planes = Planes::new(&gpu);
         let timing = Timing::new(&gpu);
         gpu.check()?;
@@ -103,7 +103,7 @@ impl Works {
         let _ = self.gpu.wait();
         let store = self.coats.texels().layout();
         self.raster = Raster::new(&self.gpu, self.shadow_resolution, config.anti_aliasing, store);
-        self.scenery = Scenery::new(&self.gpu, &self.raster.pipelines.scenery);
+        self.scenery = Scenery::new(&self.gpu, self.raster.pipelines.scenery());
         self.residents = Residents::default();
         self.residents.finest = config.level_of_detail == LevelOfDetail::Finest;
         let _ = self.gpu.check();
@@ -186,7 +186,6 @@ impl Works {
             raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight, in_color)?;
-            self.raster.prepare(&self.gpu, in_color.then_some(features));
             self.raster.hold(&self.gpu, layout.largest)?;
             let job = Job {
                 gpu: &self.gpu,

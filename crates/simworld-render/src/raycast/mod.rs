@@ -19,7 +19,7 @@ use simworld_core::scene::Scene;
 use crate::RenderError;
 use crate::batch::{Layout, Projection, ViewRequest};
 use crate::falling::Falling;
-use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, Texels, Timing, raycast_source, runs};
+use crate::gpu::{Features, Globals, Gpu, Planes, Program, Scenery, Texels, Timing, runs};
 use crate::resident::Residents;
 use crate::view::View;
 
@@ -126,16 +126,12 @@ pub(crate) struct Look<'a> {
 
 impl Raycast {
     pub(crate) fn new(gpu: &Gpu, store: &Texels) -> Self {
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("raycast"),
-            source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
-        });
         let buffer = |size| storage(gpu, size);
         Self {
             shapes: Shapes::new(),
             bodies: Bodies::new(),
             noted: Vec::new(),
-            module,
+            module: Program::Rays.module(gpu),
             pipelines: BTreeMap::new(),
             prepared: Vec::new(),
             rays: buffer(1024),
