@@ -118,6 +118,12 @@ impl Pipelines {
         let Self { made, workshop } = self;
         made.entry(brush).or_insert_with(|| workshop.make(gpu, brush))
     }
+
+    /// Those that were made so far.
+    #[cfg(test)]
+    pub(crate) fn made(&self) -> Vec<Brush> {
+        self.made.keys().copied().collect()
+    }
 }
 
 impl Layouts {
@@ -140,7 +146,9 @@ impl Layouts {
         match brush {
             Brush::Picture(_, Pattern::Model, _) => &self.model,
             Brush::Picture(..) => &self.lit,
-            Brush::Measures(Matter::Cut) | Brush::Normals(Matter::Cut) | Brush::Shadow(Matter::Cut) => &self.cut,
+            Brush::Measures(Matter::Cut) | Brush::Normals(Matter::Cut) | Brush::Shadow(Matter::Cut) => {
+                &self.cut
+            }
             Brush::Measures(_) | Brush::Normals(_) | Brush::Shadow(_) | Brush::Sky | Brush::Precipitation => {
                 &self.plain
             }
@@ -251,12 +259,12 @@ impl Variant {
             Pattern::Model => ("vertex_model", ["fragment_model_color", "fragment_model_all"]),
             _ => ("vertex_main", ["fragment_color", "fragment_all"]),
         };
-        let constants = vec![
-            ("PATTERN", f64::from(pattern as u32)),
-            ("FEATURES", f64::from(features.bits())),
-            ("CUT", f64::from(u8::from(matter == Matter::Cut))),
-        ];
-        Self { constants, ..Self::of_meshes("picture", Program::Forward, vertex) }.with_color(
+        let mut constants =
+            vec![("PATTERN", f64::from(pattern as u32)), ("FEATURES", f64::from(features.bits()))];
+        if pattern == Pattern::Model {
+            constants.push(("CUT", f64::from(u8::from(matter == Matter::Cut))));
+        }
+        Self { constants, ..Self::of_meshes("picture", Program::Forward(pattern), vertex) }.with_color(
             fragments,
             vec![target(COLOR, all), target(DEPTH, all), target(ID, all)],
             smooth,

@@ -1,6 +1,7 @@
 //! The sources of the shaders, put together from files.
 
 use super::device::Gpu;
+use crate::mesh::Pattern;
 
 const COMMON: &str = include_str!("../shaders/globals.wgsl");
 const BINDINGS: &str = include_str!("../shaders/bindings.wgsl");
@@ -12,8 +13,13 @@ const SKY: &str = include_str!("../shaders/sky.wgsl");
 const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
 const MATERIALS: &str = include_str!("../shaders/materials.wgsl");
 const HIT: &str = include_str!("../shaders/hit.wgsl");
-const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
+const SURFACES: &str = include_str!("../shaders/surfaces.wgsl");
+const PAINTED: &str = include_str!("../shaders/painted.wgsl");
+const FACADES: &str = include_str!("../shaders/facades.wgsl");
+const GROUNDS: &str = include_str!("../shaders/grounds.wgsl");
+const CARRIAGEWAYS: &str = include_str!("../shaders/carriageways.wgsl");
 const ROADS: &str = include_str!("../shaders/roads.wgsl");
+const MARKS: &str = include_str!("../shaders/marks.wgsl");
 const LAMPS: &str = include_str!("../shaders/lamps.wgsl");
 const DROPS: &str = include_str!("../shaders/drops.wgsl");
 const FALL: &str = include_str!("../shaders/fall.wgsl");
@@ -35,8 +41,9 @@ const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
 /// A module of shaders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Program {
-    /// Pictures by triangles.
-    Forward,
+    /// Pictures of one pattern by triangles. Each has a module of its own, since drivers translate all that is in one before they see what of it is
+    /// never reached.
+    Forward(Pattern),
     /// Depth and ids of what is whole, by triangles.
     Measures,
     /// Normals of what is whole, by triangles.
@@ -55,11 +62,12 @@ pub(crate) enum Program {
 impl Program {
     /// The files that it is made of, one behind the other.
     fn files(self) -> Vec<&'static str> {
-        let shading = [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS];
+        let shading = [COMMON, NOISE, SKY, MATERIALS, HIT, SURFACES, SHADING, LAMPS];
         match self {
-            Self::Forward => {
-                let forward = [BINDINGS, SUNLIT, PICTURES, STORE, MODELS, FORWARD, FORWARD_MODELS];
-                [&shading[..], &forward].concat()
+            Self::Forward(pattern) => {
+                let models = [PICTURES, STORE, MODELS, FORWARD_MODELS];
+                let models = if pattern == Pattern::Model { &models[..] } else { &[] };
+                [&shading[..], painters(pattern), &[BINDINGS, SUNLIT, FORWARD], models].concat()
             }
             Self::Measures => vec![COMMON, BINDINGS, MEASURES],
             Self::Normals => vec![COMMON, BINDINGS, OCTAHEDRAL, NORMALS],
@@ -68,8 +76,9 @@ impl Program {
             Self::Sky => vec![COMMON, BINDINGS, NOISE, SKY, SKY_PASS],
             Self::Precipitation => vec![COMMON, BINDINGS, NOISE, SKY, DROPS, PRECIPITATION],
             Self::Rays => {
+                let painters = [FACADES, GROUNDS, CARRIAGEWAYS, ROADS, MARKS, PAINTED];
                 let rays = [PICTURES, MODELS, OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL];
-                [&shading[..], &rays].concat()
+                [&shading[..], &painters, &rays].concat()
             }
         }
     }
@@ -78,7 +87,7 @@ impl Program {
     pub(crate) fn module(self, gpu: &Gpu) -> wgpu::ShaderModule {
         gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(match self {
-                Self::Forward => "forward",
+                Self::Forward(_) => "forward",
                 Self::Measures => "measures",
                 Self::Normals => "normals",
                 Self::Shadow => "shadow",
@@ -89,5 +98,41 @@ impl Program {
             }),
             source: wgpu::ShaderSource::Wgsl(self.files().concat().into()),
         })
+    }
+}
+
+/// What paints one pattern: `painted`, and what that needs.
+const fn painters(pattern: Pattern) -> &'static [&'static str] {
+    match pattern {
+        Pattern::Plain | Pattern::Model => {
+            &["fn painted(hit: Hit, base: Surface) -> Surface { return base; }"]
+        }
+        Pattern::Facade => {
+            &[FACADES, "fn painted(hit: Hit, base: Surface) -> Surface { return facade(hit, base); }"]
+        }
+        Pattern::Road => &[
+            CARRIAGEWAYS,
+            ROADS,
+            "fn painted(hit: Hit, base: Surface) -> Surface { return road(hit, base); }",
+        ],
+        Pattern::Crosswalk => &[
+            CARRIAGEWAYS,
+            ROADS,
+            "fn painted(hit: Hit, base: Surface) -> Surface { return crosswalk(hit, base); }",
+        ],
+        Pattern::Mark => &[
+            CARRIAGEWAYS,
+            MARKS,
+            "fn painted(hit: Hit, base: Surface) -> Surface { return marked(hit, base); }",
+        ],
+        Pattern::Sidewalk => {
+            &[GROUNDS, "fn painted(hit: Hit, base: Surface) -> Surface { return sidewalk(hit, base); }"]
+        }
+        Pattern::Ground => {
+            &[GROUNDS, "fn painted(hit: Hit, base: Surface) -> Surface { return ground(hit, base); }"]
+        }
+        Pattern::Foliage => {
+            &[GROUNDS, "fn painted(hit: Hit, base: Surface) -> Surface { return foliage(hit, base); }"]
+        }
     }
 }

@@ -58,7 +58,8 @@ impl Step {
         match self {
             Self::Find => ("find", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
             Self::Light => ("light", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
-            Self::Paint(_) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+            Self::Paint(Cast::Color(_)) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+            Self::Paint(_) => ("measure", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
             Self::Fall => ("fall", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
         }
     }
@@ -328,10 +329,7 @@ fn pipeline(
         _ => Features::empty(),
     };
     constants.push(("FEATURES", f64::from(features.bits())));
-    if let Step::Paint(cast) = step {
-        constants.push(("SHADED", flag(matches!(cast, Cast::Color(_)))));
-        constants.push(("FACING", flag(cast == Cast::Normals)));
-    }
+    constants.push(("FACING", flag(step == Step::Paint(Cast::Normals))));
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("raycast"),
         layout: Some(&layout),
