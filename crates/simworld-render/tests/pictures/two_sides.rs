@@ -32,7 +32,7 @@ fn two_sided(model: &mut Model) {
 /// The same by hand: every triangle once more, the other way round.
 fn doubled(model: &mut Model) {
     let count = model.vertices.len() as u32;
-    let backs: Vec<_> = model.vertices.iter().copied().collect();
+    let backs = model.vertices.clone();
     model.vertices.extend(backs.into_iter().map(|mut vertex| {
         vertex.normal = vertex.normal.map(|part| -part);
         vertex

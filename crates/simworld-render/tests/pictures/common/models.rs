@@ -137,7 +137,7 @@ pub(crate) fn leaf(image: ModelImage, finish: impl FnOnce(&mut Model)) -> Asset 
     let size = [0.02, 2.0, 2.0];
     let corners = [(-0.01, 1.0, 0.0), (0.01, 1.0, 2.0), (0.01, -1.0, 2.0), (-0.01, -1.0, 0.0)];
     let slope = f64::from(size[0] / size[2]);
-    let normal = [-1.0, 0.0, slope].map(|part| (part / slope.hypot(1.0)) as f32);
+    let normal = [-1.0, 0.0, slope].map(|part| (part / (slope * slope + 1.0).sqrt()) as f32);
     let vertex = |(x, y, z): (f32, f32, f32)| ModelVertex {
         position: [x, y, z],
         normal,
