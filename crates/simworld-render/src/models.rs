@@ -11,7 +11,7 @@ use simworld_core::scene::EntityRef;
 
 use crate::RenderError;
 use crate::draw_list::Batch;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Matter};
 use crate::mesh::{ClipPose, Drawn, ModelId, Vertex};
 use crate::poses::Poses;
 use crate::sources::{Modelled, Source, Sources};
@@ -98,28 +98,22 @@ impl Models {
         Ok(is_new)
     }
 
-    /// Whether anything of them is cut out.
-    pub(crate) fn are_cut(&self) -> bool {
-        self.held.values().any(|held| held.cut_from < held.count)
+    /// The corners of a model that are whole, or of which something is cut out; `None` where it has none of these.
+    pub(crate) fn corners(&self, id: ModelId, matter: Matter) -> Option<Range<u32>> {
+        let held = self.held.get(&id.source)?;
+        let corners = match matter {
+            Matter::Whole => 0..held.cut_from,
+            Matter::Cut => held.cut_from..held.count,
+        };
+        (!corners.is_empty()).then_some(corners)
     }
 
-    /// Draws of a batch of a model what is whole, or what is cut out.
-    pub(crate) fn draw(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        id: ModelId,
-        instances: Range<u32>,
-        cut: bool,
-    ) {
+    /// Makes a model, in its pose, what the next draws of a pass read.
+    pub(crate) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, id: ModelId) {
         let Some(held) = self.held.get(&id.source) else { return };
-        let corners = if cut { held.cut_from..held.count } else { 0..held.cut_from };
-        if corners.is_empty() {
-            return;
-        }
         let vertices = id.pose.and_then(|pose| held.poses.get(pose)).unwrap_or(&held.vertices);
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(held.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(corners, 0, instances);
     }
 }
 
@@ -183,9 +177,10 @@ fn is_cut(part: &ModelPart) -> bool {
 }
 
 impl ModelMesh {
-    /// A model in a box of that size (m) at rest, or in a pose; vertices and triangles are the same ones in all of them.
+    /// A model in a box of that size (m) at rest, or in a pose; vertices and triangles are the same ones in all of them. What has two sides has a back: the same
+    /// triangles the other way round, whose normals point back, so that whoever looks, lights or throws shadows knows of one side alone.
     pub(crate) fn of(size: Vector3, model: &Model, pose: Option<ClipPose>) -> Self {
-        const NOBODY: (u32, u32) = (u32::MAX, 0);
+        const NOBODY: ((u32, bool), u32) = ((u32::MAX, false), 0);
         let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
         let posed = pose
             .zip(model.rig.as_ref())
@@ -206,20 +201,25 @@ impl ModelMesh {
         let mut homes = vec![NOBODY; model.vertices.len()];
         let runs = || (0..).zip(model.runs());
         let whole = runs().filter(|(_, (part, _))| !is_cut(part));
-        for (number, (part, triangles)) in whole.chain(runs().filter(|(_, (part, _))| is_cut(part))) {
+        let ordered = whole.chain(runs().filter(|(_, (part, _))| is_cut(part)));
+        for (number, (part, triangles), is_back) in ordered.flat_map(|(number, run)| {
+            let sides = if run.0.two_sided { &[false, true][..] } else { &[false] };
+            sides.iter().map(move |is_back| (number, run, *is_back))
+        }) {
             let corners = if is_cut(part) { 0 } else { triangles.len() * 3 };
             mesh.cut_from += corners;
-            for corner in triangles.as_flattened() {
+            for corner in triangles.iter().flat_map(|[a, b, c]| if is_back { [a, c, b] } else { [a, b, c] }) {
                 let home = &mut homes[*corner as usize];
-                if home.0 != number {
-                    *home = (number, mesh.vertices.len() as u32);
+                if home.0 != (number, is_back) {
+                    *home = ((number, is_back), mesh.vertices.len() as u32);
                     let vertex = &model.vertices[*corner as usize];
                     let (position, normal) = placed(*corner as usize);
+                    let outward = if is_back { -1.0 } else { 1.0 };
                     let factor = if part.paint == Paint::Entity { ENTITY_COLOR } else { 0 };
                     mesh.vertices.push(Vertex {
                         anchor: std::array::from_fn(|axis| position[axis] / size[axis]),
                         offset: [0.0; 3],
-                        normal: std::array::from_fn(|axis| normal[axis] * size[axis]),
+                        normal: std::array::from_fn(|axis| outward * normal[axis] * size[axis]),
                         material: packed(vertex.color) | factor,
                     });
                     let [right, down] = vertex.place;
@@ -268,6 +268,38 @@ mod tests {
         let of_entity: Vec<bool> =
             vertices.iter().map(|vertex| vertex.material & ENTITY_COLOR != 0).collect();
         assert_eq!(of_entity, [false, false, false, true, true, true]);
+    }
+
+    #[test]
+    fn two_sides_are_two_surfaces() {
+        let part = |two_sided| ModelPart {
+            triangles: 1,
+            two_sided,
+            transparency: Transparency::Blend,
+            ..ModelPart::default()
+        };
+        let vertex = |x: f32, y: f32| ModelVertex {
+            position: [x, y, 0.0],
+            normal: [0.0, 0.0, 1.0],
+            ..ModelVertex::default()
+        };
+        let model = Model {
+            vertices: vec![vertex(0.0, 0.0), vertex(1.0, 0.0), vertex(0.0, 1.0)],
+            triangles: vec![[0, 1, 2]; 2],
+            parts: vec![part(true), ModelPart { transparency: Transparency::Opaque, ..part(false) }],
+            ..Model::default()
+        };
+        let mesh = ModelMesh::of(Vector3::repeat(1.0), &model, None);
+        assert_eq!((mesh.cut_from, &mesh.indices[..]), (3, &[0, 1, 2, 3, 4, 5, 6, 7, 8][..]));
+        assert_eq!(
+            mesh.spots.iter().map(|spot| spot[2]).collect::<Vec<_>>(),
+            [[1.0; 3], [0.0; 3], [0.0; 3]].concat()
+        );
+        for (triangle, up) in mesh.vertices.chunks(3).zip([1.0, 1.0, -1.0]) {
+            let [a, b, c] = [0, 1, 2].map(|corner| Vector3::from(triangle[corner].anchor.map(f64::from)));
+            assert_eq!((b - a).cross(&(c - a)).z, up);
+            assert!(triangle.iter().all(|vertex| f64::from(vertex.normal[2]) == up));
+        }
     }
 
     #[test]

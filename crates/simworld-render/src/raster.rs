@@ -1,11 +1,13 @@
 //! The raster backend: view after view through one set of textures, then into the planes of the batch.
 
+use std::ops::Range;
+
 use crate::RenderError;
 use crate::batch::{Channels, Layout, Span};
 use crate::config::AntiAliasing;
 use crate::draw_list::{Batch, DrawList, ShadowList, ViewBatches};
 use crate::falling::Falling;
-use crate::gpu::{Features, Gpu, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Targets};
+use crate::gpu::{Brush, Features, Gpu, Matter, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Targets};
 use crate::mesh::{Drawn, Extent, MeshLibrary, Pattern};
 use crate::models::Models;
 use crate::shadow::{ShadowKey, ShadowView};
@@ -24,7 +26,7 @@ pub(crate) struct Raster {
 struct Meshes {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
-    ranges: Vec<std::ops::Range<u32>>,
+    ranges: Vec<Range<u32>>,
     extents: Vec<Extent>,
 }
 
@@ -39,21 +41,12 @@ pub(crate) struct Job<'a> {
     pub shadows: &'a [Option<ShadowView>],
     /// Of the residents.
     pub version: u64,
-    /// What the pictures need; [prepared](Raster::prepare).
+    /// What the pictures need.
     pub features: Features,
     /// By view, what falls before it.
     pub falling: &'a [Falling],
     /// The pictures of models.
     pub store: &'a wgpu::BindGroup,
-}
-
-/// With which pipelines entities are drawn.
-#[derive(Clone, Copy)]
-enum Painting<'a> {
-    /// Those of each pattern.
-    Picture(Features),
-    /// One for all, for depth and ids alone.
-    Measures(&'a wgpu::RenderPipeline),
 }
 
 impl Raster {
@@ -87,75 +80,69 @@ impl Raster {
         Ok(())
     }
 
-    /// Makes ready what pictures of these features are drawn with, if there are to be pictures.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Option<Features>) {
-        if let Some(features) = features {
-            self.pipelines.prepare(gpu, features);
-        }
-        if self.models.are_cut() {
-            self.pipelines.prepare_cuts(gpu, features);
-        }
-    }
-
     /// Records every view of a batch.
     pub(crate) fn draw(&mut self, encoder: &mut wgpu::CommandEncoder, planes: &Planes, job: &Job<'_>) {
+        let Self { pipelines, meshes, models, shadows, targets, .. } = self;
+        let Some(targets) = targets else { return };
+        let mut painter = Painter { pipelines, meshes, models, job };
         for (view, (span, batches)) in job.layout.spans.iter().zip(&job.list.views).enumerate() {
             let in_color = job.channels.contains(Channels::RGB);
             let key = job.shadows[view].as_ref().filter(|_| in_color).map(|shadow| shadow.key);
             if let (Some(key), Some(list)) = (&key, &batches.shadows) {
-                self.draw_shadows(encoder, job, view, key, list);
+                painter.draw_shadows(encoder, shadows, view, key, list);
             }
-            let Some(targets) = &self.targets else { return };
-            let one = View { job, index: view, span, batches, shadows: self.shadows.group(key.as_ref()) };
-            self.draw_view(encoder, targets, &one, job.channels);
+            let one = View { index: view, span, batches, shadows: shadows.group(key.as_ref()) };
+            painter.draw_view(encoder, targets, &one);
             targets.copy(encoder, planes, span, job.channels);
             if job.channels.contains(Channels::NORMALS) {
                 // The texture of the ids was copied, and is free.
                 let mut pass = begin(encoder, &[attachment(&targets.id_view, None)], &targets.z, span);
-                one.job.scenery.bind(&mut pass, view);
-                self.draw_batches(&mut pass, &batches.visible, |pass, _| {
-                    pass.set_pipeline(&self.pipelines.normals);
-                });
-                let cuts = self.pipelines.cuts().map(|cuts| &cuts.normals);
-                self.draw_cuts(&mut pass, &batches.visible, job.store, cuts);
+                job.scenery.bind(&mut pass, view);
+                painter.draw_batches(&mut pass, &batches.visible, |_, matter| Brush::Normals(matter));
                 drop(pass);
                 Targets::copy_one(encoder, &targets.id, &planes.normals, span);
             }
         }
     }
+}
 
+/// Records what is drawn, and has pipelines made as they are needed.
+struct Painter<'a> {
+    pipelines: &'a mut Pipelines,
+    meshes: &'a Meshes,
+    models: &'a Models,
+    job: &'a Job<'a>,
+}
+
+impl Painter<'_> {
     /// Brings a shadow map up to date: nothing is drawn while nothing changed in it.
     fn draw_shadows(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        job: &Job<'_>,
+        shadows: &mut ShadowMaps,
         view: usize,
         key: &ShadowKey,
         list: &ShadowList,
     ) {
         let [still, moving] = &list.batches;
-        let view = job.layout.spans.len() + view;
+        let view = self.job.layout.spans.len() + view;
         let clear = wgpu::LoadOp::Clear(1.0);
-        match self.shadows.plan(job.gpu, key, job.version, &list.casters) {
+        match shadows.plan(self.job.gpu, key, self.job.version, &list.casters) {
             Redraw::Nothing => {}
-            Redraw::Whole => {
-                self.draw_layer(encoder, job, view, self.shadows.target(key, false), still, clear);
-            }
+            Redraw::Whole => self.draw_layer(encoder, view, shadows.target(key, false), still, clear),
             Redraw::Layers { stale } => {
                 if stale {
-                    self.draw_layer(encoder, job, view, self.shadows.target(key, true), still, clear);
+                    self.draw_layer(encoder, view, shadows.target(key, true), still, clear);
                 }
-                self.shadows.copy(encoder, key);
-                let whole = self.shadows.target(key, false);
-                self.draw_layer(encoder, job, view, whole, moving, wgpu::LoadOp::Load);
+                shadows.copy(encoder, key);
+                self.draw_layer(encoder, view, shadows.target(key, false), moving, wgpu::LoadOp::Load);
             }
         }
     }
 
     fn draw_layer(
-        &self,
+        &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        job: &Job<'_>,
         view: usize,
         target: Option<&wgpu::TextureView>,
         casters: &[Batch],
@@ -167,126 +154,99 @@ impl Raster {
             depth_stencil_attachment: Some(depth_attachment(target, load)),
             ..Default::default()
         });
-        pass.set_pipeline(&self.pipelines.shadow);
-        job.scenery.bind(&mut pass, view);
-        self.draw_batches(&mut pass, casters, |_, _| {});
-        self.draw_cuts(&mut pass, casters, job.store, self.pipelines.cuts().map(|cuts| &cuts.shadow));
+        self.job.scenery.bind(&mut pass, view);
+        self.draw_batches(&mut pass, casters, |_, matter| Brush::Shadow(matter));
     }
 
-    fn draw_view(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
-        one: &View<'_>,
-        channels: Channels,
-    ) {
+    fn draw_view(&mut self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, one: &View<'_>) {
+        let (features, channels) = (self.job.features, self.job.channels);
+        let picture = |pattern, matter| Brush::Picture(features, pattern, matter);
         let color = &targets.color_view;
         let measures = [attachment(&targets.depth_view, None), attachment(&targets.id_view, None)];
         let wants_rgb = channels.contains(Channels::RGB);
         let (smooth, only_rgb) = (&targets.smooth, (channels - Channels::NORMALS) == Channels::RGB);
         if let (Some([color_samples, z_samples]), true) = (smooth, wants_rgb) {
             let mut pass = begin(encoder, &[attachment(color_samples, Some(color))], z_samples, one.span);
-            self.draw_entities(&mut pass, one, Painting::Picture(one.job.features));
+            self.draw_entities(&mut pass, one, picture);
             self.draw_sky(&mut pass, one);
         }
         if smooth.is_some() || !wants_rgb {
             if !only_rgb {
                 let mut pass = begin(encoder, &measures, &targets.z, one.span);
-                self.draw_entities(&mut pass, one, Painting::Measures(&self.pipelines.measures));
+                self.draw_entities(&mut pass, one, |_, matter| Brush::Measures(matter));
             }
         } else {
             let [depth, id] = measures;
             let mut pass = begin(encoder, &[attachment(color, None), depth, id], &targets.z, one.span);
-            self.draw_entities(&mut pass, one, Painting::Picture(one.job.features));
+            self.draw_entities(&mut pass, one, picture);
             self.draw_sky(&mut pass, one);
         }
     }
 
-    /// Draws every batch.
-    fn draw_entities(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>, painting: Painting<'_>) {
-        one.job.scenery.bind(pass, one.index);
-        pass.set_bind_group(1, one.shadows, &[]);
-        pass.set_bind_group(2, one.job.store, &[]);
-        self.draw_batches(pass, &one.batches.visible, |pass, pattern| {
-            let pipeline = match painting {
-                Painting::Picture(features) => self.pipelines.picture(features, pattern),
-                Painting::Measures(pipeline) => Some(pipeline),
-            };
-            if let Some(pipeline) = pipeline {
-                pass.set_pipeline(pipeline);
-            }
-        });
-        let cuts = match painting {
-            Painting::Picture(features) => self.pipelines.cut_picture(features),
-            Painting::Measures(_) => self.pipelines.cuts().map(|cuts| &cuts.measures),
-        };
-        self.draw_cuts(pass, &one.batches.visible, one.job.store, cuts);
-    }
-
-    /// Draws what is cut out of the models among batches, after everything that is whole.
-    fn draw_cuts(
-        &self,
+    fn draw_entities(
+        &mut self,
         pass: &mut wgpu::RenderPass<'_>,
-        batches: &[Batch],
-        store: &wgpu::BindGroup,
-        pipeline: Option<&wgpu::RenderPipeline>,
+        one: &View<'_>,
+        brush: impl Fn(Pattern, Matter) -> Brush,
     ) {
-        let Some(pipeline) = pipeline.filter(|_| self.models.are_cut()) else { return };
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(2, store, &[]);
-        for batch in batches {
-            if let Drawn::Model(id) = batch.mesh {
-                self.models.draw(pass, id, batch.instances.clone(), true);
-            }
-        }
+        self.job.scenery.bind(pass, one.index);
+        pass.set_bind_group(1, one.shadows, &[]);
+        self.draw_batches(pass, &one.batches.visible, brush);
     }
 
     /// Draws the sky where nothing is, and what falls before all.
-    fn draw_sky(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
-        pass.set_pipeline(&self.pipelines.sky);
-        one.job.scenery.bind(pass, one.index);
+    fn draw_sky(&mut self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
+        let gpu = self.job.gpu;
+        pass.set_pipeline(self.pipelines.of(gpu, Brush::Sky));
+        self.job.scenery.bind(pass, one.index);
         pass.draw(0..3, 0..1);
-        let drops = one.job.falling[one.index].count;
+        let drops = self.job.falling[one.index].count;
         if drops > 0 {
-            pass.set_pipeline(&self.pipelines.precipitation);
+            pass.set_pipeline(self.pipelines.of(gpu, Brush::Precipitation));
             pass.draw(0..6, 0..drops);
         }
     }
 
-    /// Draws batches in their order; before each pattern, what is to be done for it.
+    /// Draws batches in their order, and what is cut out of models after everything that is whole.
     fn draw_batches(
-        &self,
+        &mut self,
         pass: &mut wgpu::RenderPass<'_>,
         batches: &[Batch],
-        mut begin: impl FnMut(&mut wgpu::RenderPass<'_>, Pattern),
+        brush: impl Fn(Pattern, Matter) -> Brush,
     ) {
-        let (mut is_own, mut pattern) = (false, None);
-        for batch in batches {
-            if pattern != Some(batch.mesh.pattern()) {
-                begin(pass, batch.mesh.pattern());
-                pattern = Some(batch.mesh.pattern());
-            }
-            match batch.mesh {
-                Drawn::Model(id) => {
-                    self.models.draw(pass, id, batch.instances.clone(), false);
-                    is_own = false;
+        pass.set_bind_group(2, self.job.store, &[]);
+        let (mut is_own, mut in_hand) = (false, None);
+        for matter in [Matter::Whole, Matter::Cut] {
+            for batch in batches {
+                let Some(corners) = self.corners(batch.mesh, matter) else { continue };
+                let wanted = brush(batch.mesh.pattern(), matter);
+                if in_hand != Some(wanted) {
+                    pass.set_pipeline(self.pipelines.of(self.job.gpu, wanted));
+                    in_hand = Some(wanted);
                 }
-                Drawn::Own(mesh) => {
-                    if !is_own {
-                        pass.set_vertex_buffer(0, self.meshes.vertices.slice(..));
-                        pass.set_index_buffer(self.meshes.indices.slice(..), wgpu::IndexFormat::Uint32);
-                        is_own = true;
-                    }
-                    pass.draw_indexed(self.meshes.ranges[mesh as usize].clone(), 0, batch.instances.clone());
+                match batch.mesh {
+                    Drawn::Model(id) => self.models.bind(pass, id),
+                    Drawn::Own(_) if is_own => {}
+                    Drawn::Own(_) => self.meshes.bind(pass),
                 }
+                is_own = matches!(batch.mesh, Drawn::Own(_));
+                pass.draw_indexed(corners, 0, batch.instances.clone());
             }
+        }
+    }
+
+    /// The corners of what is drawn that are whole, or of which something is cut out; `None` where it has none of these.
+    fn corners(&self, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
+        match (mesh, matter) {
+            (Drawn::Model(id), _) => self.models.corners(id, matter),
+            (Drawn::Own(mesh), Matter::Whole) => Some(self.meshes.ranges[mesh as usize].clone()),
+            (Drawn::Own(_), Matter::Cut) => None,
         }
     }
 }
 
 /// One view of a batch.
 struct View<'a> {
-    job: &'a Job<'a>,
     index: usize,
     span: &'a Span,
     batches: &'a ViewBatches,
@@ -303,6 +263,12 @@ impl Meshes {
             ranges: library.ranges,
             extents: library.extents,
         }
+    }
+
+    /// Makes them what the next draws of a pass read.
+    fn bind(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 }
 

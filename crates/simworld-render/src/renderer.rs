@@ -339,8 +339,8 @@ impl DeviceViews<'_> {
         &self.layout.spans
     }
 
-    /// Waits, and tells how long each step of it took on the device, s, by the device's own clock: `find`, `light` and `paint` of rays, `pack`
-    /// of both backends. Empty on an adapter without such a clock.
+    /// Waits, and tells how long each step of it took on the device, s, by the device's own clock: `find`, `light` and `paint` of rays, or
+    /// `measure` where no colour is wanted, `pack` of both backends. Empty on an adapter without such a clock.
     ///
     /// # Errors
     /// A failing adapter.

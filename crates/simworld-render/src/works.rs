@@ -69,7 +69,7 @@ impl Works {
         let shadow_resolution = config.shadow_resolution.min(gpu.largest_picture());
         let coats = Coats::new(&gpu, config.texture_memory);
         let raster = Raster::new(&gpu, shadow_resolution, config.anti_aliasing, coats.texels().layout());
-        let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
+        let scenery = Scenery::new(&gpu, raster.pipelines.scenery());
         let planes = Planes::new(&gpu);
         let timing = Timing::new(&gpu);
         gpu.check()?;
@@ -103,7 +103,7 @@ impl Works {
         let _ = self.gpu.wait();
         let store = self.coats.texels().layout();
         self.raster = Raster::new(&self.gpu, self.shadow_resolution, config.anti_aliasing, store);
-        self.scenery = Scenery::new(&self.gpu, &self.raster.pipelines.scenery);
+        self.scenery = Scenery::new(&self.gpu, self.raster.pipelines.scenery());
         self.residents = Residents::default();
         self.residents.finest = config.level_of_detail == LevelOfDetail::Finest;
         let _ = self.gpu.check();
@@ -186,7 +186,6 @@ impl Works {
             raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight, in_color)?;
-            self.raster.prepare(&self.gpu, in_color.then_some(features));
             self.raster.hold(&self.gpu, layout.largest)?;
             let job = Job {
                 gpu: &self.gpu,
@@ -392,3 +391,47 @@ impl Works {
 const MOST_LEFT: usize = 3;
 /// The farthest that a silhouette reaches beyond the bounds of its entity, m.
 const OVERHANG: f64 = 8.0;
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::camera::{Camera, Intrinsics};
+    use simworld_core::geometry::{Point3, pose_facing};
+    use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+
+    use super::*;
+    use crate::gpu::{Brush, Matter};
+    use crate::mesh::Pattern;
+
+    /// Of nine patterns and all that is measured, a picture of a car makes what draws that, and normals what draws these.
+    #[test]
+    fn pipelines_are_made_for_what_is_drawn() {
+        let config = RenderConfig { backend: Backend::Raster, ..RenderConfig::default() };
+        let Some(mut works) = Works::new(&config).map_err(|error| println!("skipped: {error}")).ok() else {
+            let required = std::env::var_os("SIMWORLD_REQUIRE_ADAPTER").is_some_and(|value| value == "1");
+            assert!(!required, "an adapter is required here");
+            return;
+        };
+        assert!(works.raster.pipelines.made().is_empty());
+        let (mut world, ahead) = (World::new(), Point3::new(12.0, 0.0, 0.0));
+        let car = EntityDesc::new(EntityKind::Car, pose_facing(ahead, 0.0), Shape::cuboid(4.5, 1.8, 1.5));
+        world.spawn(car).expect("a solid in the world");
+        let intrinsics = Intrinsics::from_fov(64, 64, 1.0).expect("a size in range");
+        let camera = Camera::looking_at(Point3::new(0.0, 4.0, 2.0), ahead, intrinsics);
+        let mut made = |channels| {
+            let options = ViewOptions { channels, ..ViewOptions::default() };
+            let drawn = works.draw(&config, &world, &[camera.into()], options, None);
+            let (encoder, _) = drawn.expect("a picture");
+            works.leave(encoder).expect("a picture");
+            works.raster.pipelines.made()
+        };
+        let of_picture =
+            [Brush::Picture(Features::empty(), Pattern::Plain, Matter::Whole), Brush::Shadow(Matter::Whole)];
+        assert_eq!(made(Channels::RGB | Channels::DEPTH), [&of_picture[..], &[Brush::Sky]].concat());
+        let [picture, shadow] = of_picture;
+        let (measures, normals) = (Brush::Measures(Matter::Whole), Brush::Normals(Matter::Whole));
+        assert_eq!(
+            made(Channels::NORMALS | Channels::DEPTH),
+            [picture, measures, normals, shadow, Brush::Sky]
+        );
+    }
+}

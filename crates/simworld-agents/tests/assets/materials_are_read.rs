@@ -205,6 +205,27 @@ fn alpha_is_read_where_the_material_says_what_becomes_of_it() {
 }
 
 #[test]
+fn two_sides_are_read_and_written() {
+    for (material, expected) in [
+        (vec![], false),
+        (vec![("doubleSided", json!(false))], false),
+        (vec![("doubleSided", json!(true))], true),
+        (vec![("doubleSided", json!(true)), ("alphaMode", json!("MASK"))], true),
+    ] {
+        let (document, bytes) = clear(&material);
+        assert_eq!(read(&document, &bytes).unwrap().parts[0].two_sided, expected, "{material:?}");
+        let asset = import_glb(&container(&document, &bytes), &thing("a crate"), &metres()).unwrap().asset;
+        let model = asset.model.as_deref().unwrap();
+        assert!(model.parts.iter().all(|part| part.two_sided == expected), "{material:?}");
+        let again = read_glb(&export_glb(model), &GlbLimits::default()).unwrap();
+        assert_eq!(again.parts[0].two_sided, expected, "{material:?}");
+    }
+    let (document, bytes) = clear(&[("doubleSided", json!("both"))]);
+    let error = read(&document, &bytes).unwrap_err().to_string();
+    assert!(error.contains("JSON"), "{error}");
+}
+
+#[test]
 fn what_is_no_transparency_is_refused() {
     for (name, value, said) in [
         ("alphaMode", json!("DITHER"), "DITHER"),

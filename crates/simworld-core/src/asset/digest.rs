@@ -119,6 +119,8 @@ fn part_of(part: &ModelPart, hasher: &mut StateHasher) {
         Transparency::Blend => (2, 0.0),
     };
     let Pictures { metal, emission, shade, shade_strength, bumps, bump_scale } = part.pictures;
+    // Parts of one side are known as they were before there were others.
+    let kind = kind + if part.two_sided { 4 } else { 0 };
     triple(hasher.u64(kind), &[cutoff, shade_strength, bump_scale]);
     for texture in [part.texture, metal, emission, shade, bumps] {
         let Some(ModelTexture { image, wrap }) = texture else {
@@ -301,6 +303,7 @@ mod tests {
             spoilt(|model| model.parts[0].transparency = Transparency::Blend),
             spoilt(|model| model.parts[0].transparency = Transparency::Cutout { cutoff: 0.0 }),
             spoilt(|model| model.parts[0].transparency = Transparency::Cutout { cutoff: 0.5 }),
+            spoilt(|model| model.parts[0].two_sided = true),
             spoilt(|model| model.parts[0].pictures.metal = SOME),
             spoilt(|model| model.parts[0].pictures.emission = SOME),
             spoilt(|model| model.parts[0].pictures.shade = SOME),

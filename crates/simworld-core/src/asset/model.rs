@@ -91,6 +91,9 @@ pub struct ModelPart {
     /// Pictures that say place by place how it takes light.
     #[serde(default)]
     pub pictures: Pictures,
+    /// Whether its triangles are seen from both sides, as leaves, flags and panes are. Others are seen from where their corners run counter-clockwise.
+    #[serde(default)]
+    pub two_sided: bool,
 }
 
 /// Whose colour a part has.

@@ -148,6 +148,7 @@ fn model(corners: &[[f32; 3]]) -> (Model, Shape) {
         texture: None,
         transparency: Transparency::Opaque,
         pictures: Pictures::default(),
+        two_sided: false,
     };
     let model = Model {
         vertices: corners.iter().map(vertex).collect(),

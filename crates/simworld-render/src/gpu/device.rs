@@ -23,6 +23,9 @@ impl Gpu {
     pub(crate) fn new(config: &RenderConfig) -> Result<Self, RenderError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = backends(config.backends);
+        // Without names and lines of sources in shaders, which a debug build would have, and for each of which the whole source is counted through;
+        // `WGPU_DEBUG=1` and `WGPU_VALIDATION=1` ask for them, and for the layers of Vulkan that check what wgpu does.
+        descriptor.flags = wgpu::InstanceFlags::empty().with_env();
         let instance = wgpu::Instance::new(descriptor);
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,

@@ -4,6 +4,7 @@ mod device;
 mod globals;
 mod pipelines;
 mod planes;
+mod programs;
 mod readback;
 mod scenery;
 mod shadow_maps;
@@ -13,8 +14,9 @@ mod timing;
 
 pub(crate) use device::Gpu;
 pub(crate) use globals::Globals;
-pub(crate) use pipelines::{Features, Pipelines, raycast_source};
+pub(crate) use pipelines::{Brush, Features, Matter, Pipelines};
 pub(crate) use planes::Planes;
+pub(crate) use programs::Program;
 pub(crate) use readback::{Readback, Readbacks, place};
 pub(crate) use scenery::{Scenery, runs};
 pub(crate) use shadow_maps::{Casters, MOST_MAPS, Redraw, ShadowMaps};

@@ -1,76 +1,70 @@
-//! The pipelines: one for each pattern, specialised by an override constant, so that no pixel pays for another's
-//! painting; one for the sky, and one for shadows.
+//! The pipelines of triangles, each made the first time that something is drawn with it: for every pattern one, specialised by an override constant, so
+//! that no pixel pays for another's painting; for the sky, for what falls, for measures, normals and shadows one each.
 
 use std::collections::BTreeMap;
 
 use bitflags::bitflags;
 
 use super::device::Gpu;
+use super::programs::Program;
 use super::targets::{COLOR, DEPTH, ID, SAMPLES, Z};
 use crate::config::AntiAliasing;
 use crate::mesh::{Pattern, Vertex};
 use crate::resident::Instance;
 
-const COMMON: &str = include_str!("../shaders/globals.wgsl");
-const BINDINGS: &str = include_str!("../shaders/bindings.wgsl");
-const RAYS: &str = include_str!("../shaders/rays.wgsl");
-const BLOCKED: &str = include_str!("../shaders/blocked.wgsl");
-const CAST: &str = include_str!("../shaders/cast.wgsl");
-const NOISE: &str = include_str!("../shaders/noise.wgsl");
-const SKY: &str = include_str!("../shaders/sky.wgsl");
-const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
-const MATERIALS: &str = include_str!("../shaders/materials.wgsl");
-const HIT: &str = include_str!("../shaders/hit.wgsl");
-const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
-const ROADS: &str = include_str!("../shaders/roads.wgsl");
-const LAMPS: &str = include_str!("../shaders/lamps.wgsl");
-const DROPS: &str = include_str!("../shaders/drops.wgsl");
-const FALL: &str = include_str!("../shaders/fall.wgsl");
-const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
-const SHADING: &str = include_str!("../shaders/shading.wgsl");
-const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
-const PICTURES: &str = include_str!("../shaders/pictures.wgsl");
-const STORE: &str = include_str!("../shaders/store.wgsl");
-const CUTOUTS: &str = include_str!("../shaders/cutouts.wgsl");
-const MODELS: &str = include_str!("../shaders/models.wgsl");
-const FORWARD_MODELS: &str = include_str!("../shaders/forward_models.wgsl");
-const CAST_MODELS: &str = include_str!("../shaders/cast_models.wgsl");
-const FORWARD: &str = include_str!("../shaders/forward.wgsl");
-const OCTAHEDRAL: &str = include_str!("../shaders/octahedral.wgsl");
-const NORMALS: &str = include_str!("../shaders/normals.wgsl");
-const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
-
-/// Everything that is bound and run.
-pub(crate) struct Pipelines {
-    /// RGB with the measures, or RGB alone where it is smoothed; by [`Features`], then by [`Pattern`].
-    picture: BTreeMap<Features, Vec<wgpu::RenderPipeline>>,
-    forward: wgpu::ShaderModule,
-    forward_layout: wgpu::PipelineLayout,
-    /// The same with the pictures of models.
-    model_layout: wgpu::PipelineLayout,
-    /// Of what is cut out, made when there is some: RGB by [`Features`], and everything else.
-    cut_picture: BTreeMap<Features, wgpu::RenderPipeline>,
-    cuts: Option<Cuts>,
-    /// The same pictures without shadows.
-    cut_layout: wgpu::PipelineLayout,
-    smooth: bool,
+/// What is drawn in one way: the key of a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Brush {
+    /// RGB with the measures, or RGB alone where it is smoothed.
+    Picture(Features, Pattern, Matter),
     /// Depth and ids alone, where RGB is smoothed or not asked for.
-    pub measures: wgpu::RenderPipeline,
+    Measures(Matter),
     /// Normals alone.
-    pub normals: wgpu::RenderPipeline,
-    pub sky: wgpu::RenderPipeline,
+    Normals(Matter),
+    /// Depth as the sun sees it.
+    Shadow(Matter),
+    /// What nothing covers.
+    Sky,
     /// Rain and snow over the picture.
-    pub precipitation: wgpu::RenderPipeline,
-    pub shadow: wgpu::RenderPipeline,
-    /// The layout of [`Scenery`](super::Scenery): globals of a view, and its light.
-    pub scenery: wgpu::BindGroupLayout,
+    Precipitation,
 }
 
-/// What is cut out of models is drawn with, beside its picture.
-pub(crate) struct Cuts {
-    pub measures: wgpu::RenderPipeline,
-    pub normals: wgpu::RenderPipeline,
-    pub shadow: wgpu::RenderPipeline,
+/// Which triangles of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Matter {
+    /// Those that are there as a whole.
+    Whole,
+    /// Those of models of which something is cut out.
+    Cut,
+}
+
+/// The pipelines that were made so far.
+pub(crate) struct Pipelines {
+    made: BTreeMap<Brush, wgpu::RenderPipeline>,
+    workshop: Workshop,
+}
+
+/// What pipelines are made from.
+struct Workshop {
+    /// Those that some pipeline was made from.
+    modules: BTreeMap<Program, wgpu::ShaderModule>,
+    layouts: Layouts,
+    /// Whether RGB is smoothed.
+    smooth: bool,
+}
+
+/// What is bound beside [`Scenery`](super::Scenery).
+struct Layouts {
+    /// Of the scenery: globals of a view, and its light.
+    scenery: wgpu::BindGroupLayout,
+    /// Nothing.
+    plain: wgpu::PipelineLayout,
+    /// A shadow map.
+    lit: wgpu::PipelineLayout,
+    /// A shadow map, and the pictures of models.
+    model: wgpu::PipelineLayout,
+    /// The pictures of models.
+    cut: wgpu::PipelineLayout,
 }
 
 bitflags! {
@@ -87,19 +81,14 @@ bitflags! {
     }
 }
 
-/// What the pipelines of one module share.
-struct Recipe<'a> {
-    gpu: &'a Gpu,
-    module: &'a wgpu::ShaderModule,
-    layout: &'a wgpu::PipelineLayout,
-}
-
-struct Variant<'a> {
-    label: &'a str,
-    vertex: &'a str,
-    fragment: Option<&'a str>,
-    constants: &'a [(&'a str, f64)],
-    targets: &'a [Option<wgpu::ColorTargetState>],
+/// How a pipeline differs from others.
+struct Variant {
+    label: &'static str,
+    program: Program,
+    vertex: &'static str,
+    fragment: Option<&'static str>,
+    constants: Vec<(&'static str, f64)>,
+    targets: Vec<Option<wgpu::ColorTargetState>>,
     depth: wgpu::DepthStencilState,
     samples: u32,
     /// Whether it reads vertices and instances.
@@ -107,13 +96,38 @@ struct Variant<'a> {
 }
 
 impl Pipelines {
+    /// None yet.
     pub(crate) fn new(
         gpu: &Gpu,
         shadows: &wgpu::BindGroupLayout,
         store: &wgpu::BindGroupLayout,
         smoothing: AntiAliasing,
     ) -> Self {
-        let device = &gpu.device;
+        let layouts = Layouts::new(&gpu.device, shadows, store);
+        let smooth = smoothing == AntiAliasing::Msaa4;
+        Self { made: BTreeMap::new(), workshop: Workshop { modules: BTreeMap::new(), layouts, smooth } }
+    }
+
+    /// The layout of [`Scenery`](super::Scenery).
+    pub(crate) const fn scenery(&self) -> &wgpu::BindGroupLayout {
+        &self.workshop.layouts.scenery
+    }
+
+    /// The pipeline of a brush, made the first time that it is asked for. What goes wrong there the device [tells](Gpu::check).
+    pub(crate) fn of(&mut self, gpu: &Gpu, brush: Brush) -> &wgpu::RenderPipeline {
+        let Self { made, workshop } = self;
+        made.entry(brush).or_insert_with(|| workshop.make(gpu, brush))
+    }
+
+    /// Those that were made so far.
+    #[cfg(test)]
+    pub(crate) fn made(&self) -> Vec<Brush> {
+        self.made.keys().copied().collect()
+    }
+}
+
+impl Layouts {
+    fn new(device: &wgpu::Device, shadows: &wgpu::BindGroupLayout, store: &wgpu::BindGroupLayout) -> Self {
         let scenery = scenery_layout(device);
         let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -122,97 +136,58 @@ impl Pipelines {
                 immediate_size: 0,
             })
         };
-        let module = |label, sources: &[&str]| {
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(sources.concat().into()),
-            })
-        };
-        let full = layout(&[Some(&scenery), Some(shadows)]);
-        let plain = layout(&[Some(&scenery)]);
-        let shading = [COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT];
-        let models = [PICTURES, STORE, MODELS, FORWARD, FORWARD_MODELS];
-        let forward = module("forward", &[&shading[..], &models[..]].concat());
-        let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
-        let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, DROPS, PRECIPITATION]);
-        let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
-        let normals = module("normals", &[COMMON, BINDINGS, OCTAHEDRAL, NORMALS]);
+        let (plain, lit) = (layout(&[Some(&scenery)]), layout(&[Some(&scenery), Some(shadows)]));
+        let model = layout(&[Some(&scenery), Some(shadows), Some(store)]);
+        let cut = layout(&[Some(&scenery), None, Some(store)]);
+        Self { scenery, plain, lit, model, cut }
+    }
 
-        let smooth = smoothing == AntiAliasing::Msaa4;
-        Self {
-            picture: BTreeMap::new(),
-            measures: Recipe { gpu, module: &forward, layout: &full }
-                .measures(["vertex_main", "fragment_measures"]),
-            normals: Recipe { gpu, module: &normals, layout: &plain }
-                .normals(["vertex_normals", "fragment_normals"]),
-            forward,
-            forward_layout: full,
-            model_layout: layout(&[Some(&scenery), Some(shadows), Some(store)]),
-            cut_picture: BTreeMap::new(),
-            cuts: None,
-            cut_layout: layout(&[Some(&scenery), None, Some(store)]),
-            smooth,
-            precipitation: Recipe { gpu, module: &falling, layout: &plain }.precipitation(smooth),
-            sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
-            shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow("vertex_shadow", None),
-            scenery,
+    fn of(&self, brush: Brush) -> &wgpu::PipelineLayout {
+        match brush {
+            Brush::Picture(_, Pattern::Model, _) => &self.model,
+            Brush::Picture(..) => &self.lit,
+            Brush::Measures(Matter::Cut) | Brush::Normals(Matter::Cut) | Brush::Shadow(Matter::Cut) => {
+                &self.cut
+            }
+            Brush::Measures(_) | Brush::Normals(_) | Brush::Shadow(_) | Brush::Sky | Brush::Precipitation => {
+                &self.plain
+            }
         }
-    }
-
-    /// Makes what a picture of these features is drawn with, the first time that one is wanted.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
-        let picture = |pattern| {
-            let is_model = pattern == Pattern::Model;
-            let layout = if is_model { &self.model_layout } else { &self.forward_layout };
-            Recipe { gpu, module: &self.forward, layout }.picture(pattern, features, self.smooth, false)
-        };
-        self.picture.entry(features).or_insert_with(|| Pattern::ALL.map(picture).into());
-    }
-
-    /// Makes what draws what is cut out of models, and with features pictures of it, the first time that one is wanted.
-    pub(crate) fn prepare_cuts(&mut self, gpu: &Gpu, features: Option<Features>) {
-        if self.cuts.is_none() {
-            let source = [COMMON, BINDINGS, OCTAHEDRAL, PICTURES, STORE, CUTOUTS].concat();
-            let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("cutouts"),
-                source: wgpu::ShaderSource::Wgsl(source.into()),
-            });
-            let recipe = Recipe { gpu, module: &module, layout: &self.cut_layout };
-            self.cuts = Some(Cuts {
-                measures: recipe.measures(["vertex_cut", "fragment_cut_measures"]),
-                normals: recipe.normals(["vertex_cut", "fragment_cut_normals"]),
-                shadow: recipe.shadow("vertex_cut_shadow", Some("fragment_cut_shadow")),
-            });
-        }
-        let recipe = Recipe { gpu, module: &self.forward, layout: &self.model_layout };
-        if let Some(features) = features {
-            let picture = || recipe.picture(Pattern::Model, features, self.smooth, true);
-            self.cut_picture.entry(features).or_insert_with(picture);
-        }
-    }
-
-    /// What draws pictures of what is cut out, if it was [prepared](Self::prepare_cuts).
-    pub(crate) fn cut_picture(&self, features: Features) -> Option<&wgpu::RenderPipeline> {
-        self.cut_picture.get(&features)
-    }
-
-    /// What else draws it, if it was [prepared](Self::prepare_cuts).
-    pub(crate) const fn cuts(&self) -> Option<&Cuts> {
-        self.cuts.as_ref()
-    }
-
-    /// The pipeline of a pattern, if it was [prepared](Self::prepare).
-    pub(crate) fn picture(&self, features: Features, pattern: Pattern) -> Option<&wgpu::RenderPipeline> {
-        self.picture.get(&features).and_then(|pipelines| pipelines.get(pattern as usize))
     }
 }
 
-/// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
-pub(crate) fn raycast_source() -> String {
-    let shading = [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS];
-    [&shading[..], &[PICTURES, MODELS, OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL]]
-        .concat()
-        .concat()
+impl Workshop {
+    fn make(&mut self, gpu: &Gpu, brush: Brush) -> wgpu::RenderPipeline {
+        let Variant { label, program, vertex, fragment, constants, targets, depth, samples, meshes } =
+            Variant::of(brush, self.smooth);
+        let module = self.modules.entry(program).or_insert_with(|| program.module(gpu));
+        let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let buffers = [Some(vertex_layout()), Some(instance_layout())];
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(label),
+            layout: Some(self.layouts.of(brush)),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some(vertex),
+                compilation_options: options.clone(),
+                buffers: if meshes { &buffers } else { &[] },
+            },
+            primitive: wgpu::PrimitiveState {
+                cull_mode: meshes.then_some(wgpu::Face::Back),
+                ..Default::default()
+            },
+            depth_stencil: Some(depth),
+            multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+            fragment: fragment.map(|entry| wgpu::FragmentState {
+                module,
+                entry_point: Some(entry),
+                compilation_options: options,
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]
@@ -237,131 +212,124 @@ fn depth_state(compare: wgpu::CompareFunction, bias: wgpu::DepthBiasState) -> wg
     }
 }
 
-impl Recipe<'_> {
-    fn picture(&self, pattern: Pattern, features: Features, smooth: bool, cut: bool) -> wgpu::RenderPipeline {
+impl Variant {
+    fn of(brush: Brush, smooth: bool) -> Self {
+        match brush {
+            Brush::Picture(features, pattern, matter) => Self::picture(features, pattern, matter, smooth),
+            Brush::Measures(matter) => Self::measures(matter),
+            Brush::Normals(matter) => Self::normals(matter),
+            Brush::Shadow(matter) => Self::shadow(matter),
+            Brush::Sky => Self::sky(smooth),
+            Brush::Precipitation => Self::precipitation(smooth),
+        }
+    }
+
+    /// What all of them share that draw meshes: the nearest is seen, in reverse z.
+    fn of_meshes(label: &'static str, program: Program, vertex: &'static str) -> Self {
+        Self {
+            label,
+            program,
+            vertex,
+            fragment: None,
+            constants: Vec::new(),
+            targets: Vec::new(),
+            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
+            samples: 1,
+            meshes: true,
+        }
+    }
+
+    /// With RGB as the first target: alone with several samples a pixel where it is smoothed.
+    fn with_color(
+        self,
+        [color, everything]: [&'static str; 2],
+        mut targets: Vec<Option<wgpu::ColorTargetState>>,
+        smooth: bool,
+    ) -> Self {
+        if smooth {
+            targets.truncate(1);
+        }
+        let fragment = Some(if smooth { color } else { everything });
+        Self { fragment, targets, samples: if smooth { SAMPLES } else { 1 }, ..self }
+    }
+
+    fn picture(features: Features, pattern: Pattern, matter: Matter, smooth: bool) -> Self {
         let all = wgpu::ColorWrites::ALL;
-        let targets = [target(COLOR, all), target(DEPTH, all), target(ID, all)];
-        let (vertex, color, everything) = match pattern {
-            Pattern::Model => ("vertex_model", "fragment_model_color", "fragment_model_all"),
-            _ => ("vertex_main", "fragment_color", "fragment_all"),
+        let (vertex, fragments) = match pattern {
+            Pattern::Model => ("vertex_model", ["fragment_model_color", "fragment_model_all"]),
+            _ => ("vertex_main", ["fragment_color", "fragment_all"]),
         };
-        self.build(&Variant {
-            label: "picture",
-            vertex,
-            fragment: Some(if smooth { color } else { everything }),
-            constants: &[
-                ("PATTERN", f64::from(pattern as u32)),
-                ("FEATURES", f64::from(features.bits())),
-                ("CUT", f64::from(u8::from(cut))),
-            ],
-            targets: if smooth { &targets[..1] } else { &targets },
-            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
-            samples: if smooth { SAMPLES } else { 1 },
-            meshes: true,
-        })
+        let mut constants =
+            vec![("PATTERN", f64::from(pattern as u32)), ("FEATURES", f64::from(features.bits()))];
+        if pattern == Pattern::Model {
+            constants.push(("CUT", f64::from(u8::from(matter == Matter::Cut))));
+        }
+        Self { constants, ..Self::of_meshes("picture", Program::Forward(pattern), vertex) }.with_color(
+            fragments,
+            vec![target(COLOR, all), target(DEPTH, all), target(ID, all)],
+            smooth,
+        )
     }
 
-    fn measures(&self, [vertex, fragment]: [&str; 2]) -> wgpu::RenderPipeline {
+    fn measures(matter: Matter) -> Self {
         let all = wgpu::ColorWrites::ALL;
-        self.build(&Variant {
-            label: "measures",
-            vertex,
+        let (program, vertex, fragment) = match matter {
+            Matter::Whole => (Program::Measures, "vertex_measures", "fragment_measures"),
+            Matter::Cut => (Program::Cutouts, "vertex_cut", "fragment_cut_measures"),
+        };
+        Self {
             fragment: Some(fragment),
-            constants: &[],
-            targets: &[target(DEPTH, all), target(ID, all)],
-            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
-            samples: 1,
-            meshes: true,
-        })
+            targets: vec![target(DEPTH, all), target(ID, all)],
+            ..Self::of_meshes("measures", program, vertex)
+        }
     }
 
-    fn normals(&self, [vertex, fragment]: [&str; 2]) -> wgpu::RenderPipeline {
-        self.build(&Variant {
-            label: "normals",
-            vertex,
+    fn normals(matter: Matter) -> Self {
+        let (program, vertex, fragment) = match matter {
+            Matter::Whole => (Program::Normals, "vertex_normals", "fragment_normals"),
+            Matter::Cut => (Program::Cutouts, "vertex_cut", "fragment_cut_normals"),
+        };
+        Self {
             fragment: Some(fragment),
-            constants: &[],
-            targets: &[target(ID, wgpu::ColorWrites::ALL)],
-            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
-            samples: 1,
-            meshes: true,
-        })
+            targets: vec![target(ID, wgpu::ColorWrites::ALL)],
+            ..Self::of_meshes("normals", program, vertex)
+        }
     }
 
-    fn sky(&self, smooth: bool) -> wgpu::RenderPipeline {
-        let (all, none) = (wgpu::ColorWrites::ALL, wgpu::ColorWrites::empty());
-        let targets = [target(COLOR, all), target(DEPTH, none), target(ID, none)];
-        self.build(&Variant {
-            label: "sky",
-            vertex: "vertex_sky",
-            fragment: Some(if smooth { "fragment_sky" } else { "fragment_sky_all" }),
-            constants: &[],
-            targets: if smooth { &targets[..1] } else { &targets },
-            // Infinity, where nothing was drawn.
-            depth: depth_state(wgpu::CompareFunction::Equal, wgpu::DepthBiasState::default()),
-            samples: if smooth { SAMPLES } else { 1 },
-            meshes: false,
-        })
-    }
-
-    fn precipitation(&self, smooth: bool) -> wgpu::RenderPipeline {
-        let none = wgpu::ColorWrites::empty();
-        let targets = [overlay(COLOR), target(DEPTH, none), target(ID, none)];
-        let mut depth = depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default());
-        depth.depth_write_enabled = Some(false);
-        self.build(&Variant {
-            label: "precipitation",
-            vertex: "vertex_drop",
-            fragment: Some(if smooth { "fragment_drop" } else { "fragment_drop_all" }),
-            constants: &[],
-            targets: if smooth { &targets[..1] } else { &targets },
-            depth,
-            samples: if smooth { SAMPLES } else { 1 },
-            meshes: false,
-        })
-    }
-
-    fn shadow(&self, vertex: &str, fragment: Option<&str>) -> wgpu::RenderPipeline {
+    fn shadow(matter: Matter) -> Self {
         let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 1.5, clamp: 0.0 };
-        self.build(&Variant {
-            label: "shadow",
-            vertex,
+        let (program, vertex, fragment) = match matter {
+            Matter::Whole => (Program::Shadow, "vertex_shadow", None),
+            Matter::Cut => (Program::Cutouts, "vertex_cut_shadow", Some("fragment_cut_shadow")),
+        };
+        Self {
             fragment,
-            constants: &[],
-            targets: &[],
             depth: depth_state(wgpu::CompareFunction::Less, bias),
-            samples: 1,
-            meshes: true,
-        })
+            ..Self::of_meshes("shadow", program, vertex)
+        }
     }
 
-    fn build(&self, variant: &Variant<'_>) -> wgpu::RenderPipeline {
-        let options = wgpu::PipelineCompilationOptions { constants: variant.constants, ..Default::default() };
-        let buffers = [Some(vertex_layout()), Some(instance_layout())];
-        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(variant.label),
-            layout: Some(self.layout),
-            vertex: wgpu::VertexState {
-                module: self.module,
-                entry_point: Some(variant.vertex),
-                compilation_options: options.clone(),
-                buffers: if variant.meshes { &buffers } else { &[] },
-            },
-            primitive: wgpu::PrimitiveState {
-                cull_mode: variant.meshes.then_some(wgpu::Face::Back),
-                ..Default::default()
-            },
-            depth_stencil: Some(variant.depth.clone()),
-            multisample: wgpu::MultisampleState { count: variant.samples, ..Default::default() },
-            fragment: variant.fragment.map(|entry| wgpu::FragmentState {
-                module: self.module,
-                entry_point: Some(entry),
-                compilation_options: options,
-                targets: variant.targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+    fn sky(smooth: bool) -> Self {
+        let (all, none) = (wgpu::ColorWrites::ALL, wgpu::ColorWrites::empty());
+        // Infinity, where nothing was drawn.
+        let depth = depth_state(wgpu::CompareFunction::Equal, wgpu::DepthBiasState::default());
+        Self { depth, meshes: false, ..Self::of_meshes("sky", Program::Sky, "vertex_sky") }.with_color(
+            ["fragment_sky", "fragment_sky_all"],
+            vec![target(COLOR, all), target(DEPTH, none), target(ID, none)],
+            smooth,
+        )
+    }
+
+    fn precipitation(smooth: bool) -> Self {
+        let none = wgpu::ColorWrites::empty();
+        let mut variant = Self::of_meshes("precipitation", Program::Precipitation, "vertex_drop");
+        variant.depth.depth_write_enabled = Some(false);
+        variant.meshes = false;
+        variant.with_color(
+            ["fragment_drop", "fragment_drop_all"],
+            vec![overlay(COLOR), target(DEPTH, none), target(ID, none)],
+            smooth,
+        )
     }
 }
 

@@ -34,7 +34,7 @@ const AWNINGS: [Color; 5] =
 /// Flat roofs.
 const GRAVEL: Color = [0.28, 0.27, 0.26];
 
-/// What the facade is painted as; the numbers are those of patterns.wgsl.
+/// What the facade is painted as; the numbers are those of facades.wgsl.
 #[derive(Clone, Copy, PartialEq)]
 enum Front {
     Plain = 0,

@@ -51,18 +51,6 @@ impl Pattern {
     pub(crate) const fn is_flat(self) -> bool {
         matches!(self, Self::Road | Self::Mark | Self::Sidewalk | Self::Crosswalk | Self::Ground)
     }
-
-    pub(crate) const ALL: [Self; 9] = [
-        Self::Plain,
-        Self::Facade,
-        Self::Road,
-        Self::Sidewalk,
-        Self::Crosswalk,
-        Self::Ground,
-        Self::Foliage,
-        Self::Mark,
-        Self::Model,
-    ];
 }
 
 macro_rules! meshes {

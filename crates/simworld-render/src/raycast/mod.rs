@@ -19,7 +19,7 @@ use simworld_core::scene::Scene;
 use crate::RenderError;
 use crate::batch::{Layout, Projection, ViewRequest};
 use crate::falling::Falling;
-use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, Texels, Timing, raycast_source, runs};
+use crate::gpu::{Features, Globals, Gpu, Planes, Program, Scenery, Texels, Timing, runs};
 use crate::resident::Residents;
 use crate::view::View;
 
@@ -58,7 +58,8 @@ impl Step {
         match self {
             Self::Find => ("find", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
             Self::Light => ("light", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
-            Self::Paint(_) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+            Self::Paint(Cast::Color(_)) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+            Self::Paint(_) => ("measure", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
             Self::Fall => ("fall", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
         }
     }
@@ -126,16 +127,12 @@ pub(crate) struct Look<'a> {
 
 impl Raycast {
     pub(crate) fn new(gpu: &Gpu, store: &Texels) -> Self {
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("raycast"),
-            source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
-        });
         let buffer = |size| storage(gpu, size);
         Self {
             shapes: Shapes::new(),
             bodies: Bodies::new(),
             noted: Vec::new(),
-            module,
+            module: Program::Rays.module(gpu),
             pipelines: BTreeMap::new(),
             prepared: Vec::new(),
             rays: buffer(1024),
@@ -332,10 +329,7 @@ fn pipeline(
         _ => Features::empty(),
     };
     constants.push(("FEATURES", f64::from(features.bits())));
-    if let Step::Paint(cast) = step {
-        constants.push(("SHADED", flag(matches!(cast, Cast::Color(_)))));
-        constants.push(("FACING", flag(cast == Cast::Normals)));
-    }
+    constants.push(("FACING", flag(step == Step::Paint(Cast::Normals))));
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("raycast"),
         layout: Some(&layout),

@@ -11,7 +11,7 @@ use crate::mesh::{Drawn, MeshId};
 /// Slots that fit beside the class in [`Instance::who`].
 pub(crate) const MOST_SLOTS: usize = (1 << 24) - 1;
 
-/// Layers of what is painted on surfaces, which lies over them; see `mark_layer` in shaders/roads.wgsl.
+/// Layers of what is painted on surfaces, which lies over them; see `mark_layer` in shaders/surfaces.wgsl.
 const PAINT_LAYERS: u8 = 3;
 
 /// A mesh at a place: vertex = anchor * scale + offset * unit, turned and moved; the twin of `Instance` in shaders/globals.wgsl.

@@ -1,4 +1,4 @@
-// The ray-cast backend, in three steps: `find` what each view ray meets, `light` it by a ray towards the sun, `paint` it. A step knows no more than it
+// The ray-cast backend, in three steps: `find` what each view ray meets, `light` it by a ray towards the sun, `paint` it or `measure` it. A step knows no more than it
 // needs, so that many of its rays are under way at once. Between the steps the planes of colour, depth and ids hold the triangle that was met, its
 // depth, and its instance.
 @group(0) @binding(5) var<storage, read_write> out_color: array<u32>;
@@ -17,8 +17,7 @@ var<private> lit: f32;
 const LIT: u32 = 0x80000000u;
 // Whether rays are those of a table.
 override TABLE: bool = false;
-// What is painted: colour, or normals, or neither.
-override SHADED: bool = true;
+// Whether normals are measured.
 override FACING: bool = false;
 
 fn sky_node(index: u32) -> vec4f {
@@ -174,27 +173,42 @@ fn paint(@builtin(global_invocation_id) at: vec3u) {
     let sight = sight_of(at.xy);
     globals = views[at.z].globals;
     if (number == NOTHING) {
-        if (SHADED) {
-            out_color[pixel] = encoded(tone_map(sky_with_clouds(normalize(sight.ahead))));
-        }
-        if (FACING) {
-            out_normals[pixel] = 0u;
-        } else {
-            out_depth[pixel] = 0.0;
-            out_who[pixel] = 0u;
-        }
+        out_color[pixel] = encoded(tone_map(sky_with_clouds(normalize(sight.ahead))));
+        out_depth[pixel] = 0.0;
+        out_who[pixel] = 0u;
         return;
     }
     let code = out_color[pixel];
     lit = f32(code >> 31u);
     let triangle = code & ~LIT;
     let met = met_at(number, triangle, sight.origin + sight.direction * out_depth[pixel]);
-    if (FACING) {
-        out_normals[pixel] = packed_normal(met.normal);
+    out_color[pixel] = encoded(shade(hit_of(met, number, triangle, sight.direction)));
+    out_who[pixel] = instances[number].who;
+}
+
+// In place of `paint` where colour is not wanted: who it is, or the normals, which leave everything else as it is for what follows.
+@compute @workgroup_size(16, 16)
+fn measure(@builtin(global_invocation_id) at: vec3u) {
+    let pixel = pixel_of(at);
+    if (pixel == NOTHING) {
         return;
     }
-    if (SHADED) {
-        out_color[pixel] = encoded(shade(hit_of(met, number, triangle, sight.direction)));
+    look(at.z);
+    let number = out_who[pixel];
+    if (FACING) {
+        var facing = 0u;
+        if (number != NOTHING) {
+            let sight = sight_of(at.xy);
+            let point = sight.origin + sight.direction * out_depth[pixel];
+            facing = packed_normal(met_at(number, out_color[pixel] & ~LIT, point).normal);
+        }
+        out_normals[pixel] = facing;
+        return;
+    }
+    if (number == NOTHING) {
+        out_depth[pixel] = 0.0;
+        out_who[pixel] = 0u;
+        return;
     }
     out_who[pixel] = instances[number].who;
 }

@@ -1,4 +1,4 @@
-// Entities: RGB, planar depth, and who it is, in one pass, or RGB and the measures apart.
+// Entities: RGB, planar depth, and who it is, in one pass, or RGB alone.
 
 // The painting of this pipeline, a `Pattern` of mesh/mod.rs.
 override PATTERN: u32 = 0u;
@@ -68,14 +68,4 @@ fn fragment_all(in: Varyings) -> All {
 @fragment
 fn fragment_color(in: Varyings) -> @location(0) vec4f {
     return vec4f(shade(hit_of(in)), 1.0);
-}
-
-struct Measures {
-    @location(0) depth: f32,
-    @location(1) id: u32,
-}
-
-@fragment
-fn fragment_measures(in: Varyings) -> Measures {
-    return Measures(planar_depth(in), in.id);
 }

@@ -1,5 +1,5 @@
 // The colour of what a view ray meets, for every backend: no derivatives, no stage inputs. A backend brings
-// `sunlit(relative, normal)`, the share of the sun that reaches a point.
+// `sunlit(relative, normal)`, the share of the sun that reaches a point, and `painted(hit, base)`, which paints what it may meet.
 
 // What this picture needs; folded away by the compiler where it is not.
 override FEATURES: u32 = 7u;
@@ -14,16 +14,7 @@ const WITH_CUTS: u32 = 16u;
 fn surface_of(hit: Hit) -> Surface {
     let f = hit.finish;
     let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow.rgb, hit.bumped, f.roughness, f.metallic);
-    switch hit.pattern {
-        case 1u: { return facade(hit, base); }
-        case 2u: { return road(hit, base); }
-        case 3u: { return sidewalk(hit, base); }
-        case 4u: { return crosswalk(hit, base); }
-        case 5u: { return ground(hit, base); }
-        case 6u: { return foliage(hit, base); }
-        case 7u: { return marked(hit, base); }
-        default: { return base; }
-    }
+    return painted(hit, base);
 }
 
 // Water on a surface: what soaks is darker (S. Lagarde, Water drop, 2013), a film is smooth, and hollows of level ground

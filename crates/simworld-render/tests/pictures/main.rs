@@ -31,3 +31,4 @@ mod pixels_follow_the_camera;
 mod scans_meet_the_solids;
 mod sensors_conform;
 mod streets_are_painted_by_their_lanes;
+mod two_sides;

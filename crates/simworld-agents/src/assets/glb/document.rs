@@ -139,6 +139,7 @@ pub(super) struct Material {
     pub(super) occlusion_texture: Option<TextureInfo>,
     pub(super) alpha_mode: Option<String>,
     pub(super) alpha_cutoff: Option<f64>,
+    pub(super) double_sided: bool,
     pub(super) extensions: MaterialExtensions,
 }
 

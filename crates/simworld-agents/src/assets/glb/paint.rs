@@ -45,6 +45,8 @@ pub(super) struct Coat {
     pub(super) finish: Finish,
     /// Place by place.
     pub(super) pictures: Pictures,
+    /// Whether they are seen from both sides.
+    pub(super) two_sided: bool,
     /// Whether the file says of what colour it is.
     pub(super) says: Says,
 }
@@ -162,7 +164,8 @@ impl<'a> Painter<'a> {
         let places = if self.keeps() { sheet.places(vertices) } else { vec![[0.0; 2]; vertices] };
         let numbers = colors.iter().flatten().chain(&alphas);
         if numbers.into_iter().all(|number| number.is_finite()) {
-            Ok(Coat { colors, places, alphas, texture, transparency, finish, pictures, says })
+            let two_sided = material.double_sided;
+            Ok(Coat { colors, places, alphas, texture, transparency, finish, pictures, two_sided, says })
         } else {
             Err(GlbError::Number { what: "material", index: primitive.material.unwrap_or(0) })
         }

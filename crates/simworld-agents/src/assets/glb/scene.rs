@@ -174,6 +174,7 @@ impl Gatherer<'_> {
             texture: coat.texture,
             transparency: coat.transparency,
             pictures: coat.pictures,
+            two_sided: coat.two_sided,
         });
         self.surface.triangles.extend(triangles.iter().map(|[a, b, c]| {
             let [a, b, c] = [first + a, first + b, first + c];

@@ -176,6 +176,9 @@ impl File {
             }
             Transparency::Blend => material["alphaMode"] = json!("BLEND"),
         }
+        if part.two_sided {
+            material["doubleSided"] = json!(true);
+        }
         let brightest = finish.emission.iter().copied().fold(0.0, f32::max);
         if brightest > 1.0 {
             self.shines = true;

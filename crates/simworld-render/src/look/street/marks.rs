@@ -28,7 +28,7 @@ const ARROW_AGAIN: f64 = 26.0;
 /// Length of a parking bay, m: 20 feet, as where citygen parks vehicles.
 const BAY: f64 = 6.0;
 
-/// What a mark is; the twin of the numbers in shaders/patterns.wgsl.
+/// What a mark is; the twin of the numbers in shaders/marks.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Solid,
@@ -73,7 +73,7 @@ impl Kind {
     }
 }
 
-/// The layer of a mark by its state, among those that lie in one plane; the twin of `mark_layer` in shaders/roads.wgsl.
+/// The layer of a mark by its state, among those that lie in one plane; the twin of `mark_layer` in shaders/surfaces.wgsl.
 pub(crate) fn mark_layer(state: f32) -> u32 {
     match state as u32 & 31 {
         4 | 5 | 9 | 10 | 12 | 16.. => 0,

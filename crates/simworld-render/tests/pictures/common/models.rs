@@ -131,3 +131,29 @@ pub(crate) fn card(image: ModelImage, places: [[f32; 2]; 2], finish: impl FnOnce
     model.parts = vec![part];
     asset("card", model, size)
 }
+
+/// A leaf of 2 m by 2 m that leans by a centimetre, and is there from its back alone; of one part, which somebody makes what it is.
+pub(crate) fn leaf(image: ModelImage, finish: impl FnOnce(&mut Model)) -> Asset {
+    let size = [0.02, 2.0, 2.0];
+    let corners = [(-0.01, 1.0, 0.0), (0.01, 1.0, 2.0), (0.01, -1.0, 2.0), (-0.01, -1.0, 0.0)];
+    let slope = f64::from(size[0] / size[2]);
+    let normal = [-1.0, 0.0, slope].map(|part| (part / (slope * slope + 1.0).sqrt()) as f32);
+    let vertex = |(x, y, z): (f32, f32, f32)| ModelVertex {
+        position: [x, y, z],
+        normal,
+        color: [1.0; 3],
+        place: [(1.0 - y) * 0.5, (2.0 - z) * 0.5],
+        ..ModelVertex::default()
+    };
+    let texture = Some(ModelTexture { image: 0, wrap: [Wrap::Clamp; 2] });
+    let part = ModelPart { name: "leaf".into(), triangles: 2, texture, ..ModelPart::default() };
+    let mut model = Model {
+        vertices: corners.map(vertex).to_vec(),
+        triangles: vec![[0, 2, 1], [0, 3, 2]],
+        images: vec![image],
+        parts: vec![part],
+        ..Model::default()
+    };
+    finish(&mut model);
+    asset("leaf", model, size)
+}

@@ -1,14 +1,4 @@
-// Surfaces painted from body-frame coordinates, in metres: no textures.
-struct Surface {
-    albedo: vec3f,
-    // How much of a clear coat or pane it has, 0 to 1.
-    gloss: f32,
-    emissive: vec3f,
-    normal: vec3f,
-    // Under the gloss; see `Finish`.
-    roughness: f32,
-    metallic: f32,
-}
+// Walls of buildings.
 
 // A wall as its painter sees it: where the point is on the wall, how the wall is divided, and where the view ray meets
 // the panes, which lie behind the wall.
@@ -186,59 +176,5 @@ fn glazing(hit: Hit, base: Surface, w: Wall, window: vec4f, opening: f32, kind: 
     // Panes are never quite parallel, so each mirrors another piece of sky.
     let tilt = vec3f(w.chance, fract(w.chance * 9.0), fract(w.chance * 33.0)) - 0.5;
     s.normal = normalize(s.normal + glass * opening * 0.04 * tilt);
-    return s;
-}
-
-fn crosswalk(hit: Hit, base: Surface) -> Surface {
-    var s = base;
-    let p = hit.body.xy;
-    let period = hit.size.x / max(1.0, round(hit.size.x / 1.0));
-    let x = (p.x + hit.size.x * 0.5) / period;
-    let stripes = bands(x, 0.25, 0.75, hit.footprint.x / period);
-    if (hit.body_normal.z < 0.5) {
-        return s;
-    }
-    s.albedo = asphalt(p, s.albedo);
-    s.albedo = mix(s.albedo, vec3f(0.66) * (0.72 + 0.28 * noise2(p * 5.0)), stripes * 0.92);
-    return s;
-}
-
-fn sidewalk(hit: Hit, base: Surface) -> Surface {
-    var s = base;
-    let p = hit.body.xy;
-    let slab = p / vec2f(1.2, 0.8) + vec2f(0.0, 0.5);
-    let step = hit.footprint.xy / vec2f(1.2, 0.8);
-    if (hit.body_normal.z < 0.5) {
-        s.albedo *= 1.15;
-        return s;
-    }
-    let joint = max(bands(slab.x, 0.0, 0.022, step.x), bands(slab.y, 0.0, 0.033, step.y));
-    let tone = hash3(vec3i(vec2i(floor(slab)), 5));
-    s.albedo *= 0.86 + 0.14 * mix(tone, 0.5, saturate(step.x * 1.5)) + 0.12 * noise2(p * 0.5) - 0.3 * joint;
-    let kerb = smoothstep(hit.size.y * 0.5 - 0.2, hit.size.y * 0.5 - 0.17, abs(p.y));
-    s.albedo = mix(s.albedo, vec3f(0.5, 0.49, 0.47), kerb * 0.8);
-    return s;
-}
-
-fn ground(hit: Hit, base: Surface) -> Surface {
-    var s = base;
-    let p = hit.body.xy;
-    let wide = noise2(p * 0.035) * 0.6 + noise2(p * 0.13) * 0.4;
-    let fine = noise2(p * 2.3) * 0.5 + noise2(p * 9.0) * 0.5;
-    s.albedo *= mix(vec3f(0.8, 0.85, 0.75), vec3f(1.3, 1.15, 0.9), wide) * (0.75 + 0.5 * fine);
-    return s;
-}
-
-fn foliage(hit: Hit, base: Surface) -> Surface {
-    var s = base;
-    if (hit.paint > 0.5) {
-        return s;
-    }
-    let p = hit.body * (9.0 / sqrt(max(hit.size.z, 1.0)));
-    let coarse = noise3(p * 0.8 + hit.size.w * 50.0);
-    let fine = noise3(p * 3.1);
-    let leaf = vec3f(fine, noise3(p * 3.1 + 19.0), noise3(p * 3.1 + 41.0)) - 0.5;
-    s.normal = normalize(s.normal + leaf * 1.1);
-    s.albedo *= (0.45 + 0.8 * coarse) * (0.6 + 0.8 * fine);
     return s;
 }
