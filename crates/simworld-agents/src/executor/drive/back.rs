@@ -1,10 +1,11 @@
 //! Backwards a little, straight, for room to go another way.
 
 use simworld_core::action::Action;
-use simworld_core::geometry::{Point2, heading};
+use simworld_core::geometry::heading;
 use simworld_core::scene::Scene;
 
 use super::around::{Seen, would_touch};
+use super::junction::OVER;
 use super::watch::Own;
 use super::{ASTRAY, Driving};
 use crate::lanes::nearest_lane;
@@ -13,16 +14,18 @@ use crate::lanes::nearest_lane;
 const AT_BEGIN: f64 = 0.5;
 
 impl Driving {
-    /// The path from where one has backed to; before its begin a piece leads to it.
-    fn begin_here(&mut self, at: Point2) {
+    /// The path from where one has backed to; before its begin a piece leads to it, and lines that one is behind again are minded again.
+    fn begin_here(&mut self, own: &Own<'_>) {
         self.station = (self.station - 6.0).max(0.0);
-        self.locate(at);
+        self.locate(own.at);
         self.best = self.station;
-        let away = self.path.first().map_or(0.0, |begin| (begin - at).norm());
+        let away = self.path.first().map_or(0.0, |begin| (begin - own.at).norm());
         if self.station <= 0.0 && away > AT_BEGIN {
-            self.path.insert(0, at);
+            self.path.insert(0, own.at);
             self.shift(0.0, away);
         }
+        let front = self.station + own.half_length;
+        self.lines.iter_mut().for_each(|line| line.is_passed &= front > line.station + OVER);
     }
 
     /// What lies on the path from a station on is so much farther along it, m.
@@ -60,7 +63,7 @@ impl Driving {
         let at_begin = lane.is_some_and(|on| on.distance < ASTRAY && on.station < own.half_length + AT_BEGIN);
         if self.backing <= 0.0 || at_begin || would_touch(own, around, (-0.8, 0.0), 0.2) {
             self.backing = 0.0;
-            self.begin_here(own.at);
+            self.begin_here(own);
             out.push(Action::Brake { level: 1.0 });
         } else {
             let level = if own.speed < -1.5 { 0.0 } else { -BACKWARDS };

@@ -25,7 +25,7 @@ const FIRM: f64 = 3.5;
 const HARDEST: f64 = 6.0;
 /// Room kept before a stop line, m: feet lag behind what one wants. Who stands over it by less than this has not passed it.
 const TO_LINE: f64 = 1.5;
-const OVER: f64 = 0.5;
+pub(super) const OVER: f64 = 0.5;
 /// The last metres to a line are driven no faster than they last this long, s: what feet lag behind is less.
 const LAG: f64 = 0.8;
 /// One stands at a line that is nearer than this, m.

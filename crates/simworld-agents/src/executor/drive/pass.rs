@@ -102,6 +102,9 @@ impl Driving {
             self.bend((begin.max(self.station - BACK), end), aside, ramp);
         } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
             self.drive_round(scene, network, vehicle, own, obstacle);
+        } else if self.lines.first().is_some_and(|line| line.is_passed) {
+            // Two who stand nose to nose in a junction both wait for the other to go.
+            self.back_off(own, around);
         }
     }
 
