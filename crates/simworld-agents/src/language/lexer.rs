@@ -13,6 +13,8 @@ pub(crate) enum Token {
     Number(f64),
     /// An entity, written `#12` or `#12.1`.
     Id(EntityId),
+    /// Several entities, put by readers in the place of words that mean them.
+    Ids(Vec<EntityId>),
     /// An opening bracket.
     Open,
     /// A closing bracket.

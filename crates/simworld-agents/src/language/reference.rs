@@ -5,7 +5,7 @@ use std::sync::Arc;
 use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Reference, Side, Stands, Target, Traits};
+use super::clause::{Choice, Count, Reference, Side, Stands, Target, Traits};
 use super::lexer::{Lexeme, Token, written};
 use super::lexicon::{Category, DETERMINERS, category, fits, fits_noun, longest_phrase};
 use super::names::Guess;
@@ -55,6 +55,11 @@ impl Parser<'_> {
         }
         if let Some(them) = self.somebody() {
             return Ok(them);
+        }
+        if let [Lexeme { token: Token::Ids(ids), .. }, ..] = self.rest() {
+            let target = Target::Named(ids.clone());
+            self.at += 1;
+            return Ok(Reference { count: Count::All, ..Reference::to(target, self.text_from(start)) });
         }
         if let Some(target) = self.simple_target()? {
             return Ok(Reference::to(target, self.text_from(start)));

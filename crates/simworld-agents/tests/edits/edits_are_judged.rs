@@ -4,6 +4,8 @@
 //! after: the relation that was asked for holds, nothing else changed, nothing floats or runs into another thing.
 
 use std::collections::BTreeMap;
+use std::panic::resume_unwind;
+use std::thread;
 
 use crate::city::City;
 use crate::edits_common::{Asked, CITIES, Verdict, asked_in, taught_in, verdict};
@@ -42,20 +44,36 @@ impl Score {
     }
 }
 
+/// One thing that was asked in a city, and how it was answered.
+type Judged = (&'static str, Asked, Verdict);
+
+/// All that is asked and how it is answered, city by city; each city is judged on a thread of its own, and the order is always the same.
+fn judged(asked_in: fn(&str) -> Vec<Asked>) -> Vec<Judged> {
+    let judge = |name: &'static str| -> Vec<Judged> {
+        let city = City::read(name);
+        let asked = asked_in(name).into_iter();
+        asked
+            .map(|asked| (verdict(&city, &asked), asked))
+            .map(|(verdict, asked)| (name, asked, verdict))
+            .collect()
+    };
+    thread::scope(|scope| {
+        let cities = CITIES.map(|name| scope.spawn(move || judge(name)));
+        let judged = cities.into_iter().map(thread::ScopedJoinHandle::join);
+        judged.flat_map(|judged| judged.unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    })
+}
+
 #[test]
 fn every_family_holds_its_floor() {
     let mut families: BTreeMap<String, Score> = BTreeMap::new();
     let mut sets: BTreeMap<(&str, String), Score> = BTreeMap::new();
     let mut faults = Vec::new();
-    for name in CITIES {
-        let city = City::read(name);
-        for asked in asked_in(name) {
-            let verdict = verdict(&city, &asked);
-            families.entry(asked.family.clone()).or_default().count(&verdict);
-            sets.entry((asked.set, asked.family.clone())).or_default().count(&verdict);
-            if verdict != Verdict::Right {
-                faults.push(line(name, &asked, &verdict));
-            }
+    for (city, asked, verdict) in &judged(asked_in) {
+        families.entry(asked.family.clone()).or_default().count(verdict);
+        sets.entry((asked.set, asked.family.clone())).or_default().count(verdict);
+        if *verdict != Verdict::Right {
+            faults.push(line(city, asked, verdict));
         }
     }
     for ((set, family), score) in &sets {
@@ -85,19 +103,11 @@ fn every_family_holds_its_floor() {
 /// Sentences of our own, by which classes of speech were taught that no set of strangers has: all of them stay right.
 #[test]
 fn what_was_taught_is_understood() {
-    let mut faults = Vec::new();
-    let mut all = 0;
-    for name in CITIES {
-        let city = City::read(name);
-        for asked in taught_in(name) {
-            let verdict = verdict(&city, &asked);
-            all += 1;
-            if verdict != Verdict::Right {
-                faults.push(line(name, &asked, &verdict));
-            }
-        }
-    }
-    assert!(all >= 1_600, "only {all} sentences");
+    let judged = judged(taught_in);
+    let all = judged.len();
+    let wrong = judged.iter().filter(|(.., verdict)| *verdict != Verdict::Right);
+    let faults: Vec<String> = wrong.map(|(city, asked, verdict)| line(city, asked, verdict)).collect();
+    assert!(all >= 1_800, "only {all} sentences");
     assert!(faults.is_empty(), "{} of {all}\n{}", faults.len(), faults.join("\n"));
 }
 

@@ -86,6 +86,22 @@ impl Reader<'_> {
         })
     }
 
+    /// That what is to be taken away or down is not there: "tear the library down".
+    pub(super) fn not_taken(&self, end: usize) -> Option<simworld_core::seam::PlanError> {
+        let at = self.polite_at(0);
+        let end = self.before_politeness(at, end);
+        let words = longest_phrase(self.lexemes.get(at..end)?, TAKES)?;
+        let last = end.checked_sub(1).filter(|last| at + words < *last)?;
+        let rest = &self.lexemes[last..end];
+        if longest_phrase(rest, AWAY).is_none() && longest_phrase(rest, DOWN).is_none() {
+            return None;
+        }
+        match self.things(at + words, last) {
+            Err(error @ simworld_core::seam::PlanError::NotFound { .. }) => Some(error),
+            _ => None,
+        }
+    }
+
     /// "Tow the car": away, if no place to which it is towed is named.
     pub(super) fn towed(&self, at: usize, end: usize) -> Option<Wish> {
         let end = self.before_politeness(at, end);

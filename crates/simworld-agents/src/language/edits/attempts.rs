@@ -137,7 +137,12 @@ impl Attempts<'_> {
                     (!found.iter().flatten().any(is_nowhere)).then_some(found)
                 };
                 let unknown = || unknown(Telling::Words).or_else(by_shape);
-                self.reader.complaint().or_else(unknown).ok_or(error)
+                let found = self.reader.complaint().or_else(unknown);
+                let not_there = || match error {
+                    PlanError::NotUnderstood { .. } => self.reader.stranger(),
+                    _ => None,
+                };
+                found.ok_or_else(|| not_there().unwrap_or(error.clone()))
             }
         }
     }

@@ -429,7 +429,8 @@ pub(super) fn is_crowd(noun: &[Lexeme]) -> bool {
     })
 }
 
-fn plural_of(word: &str) -> String {
+/// The plural of a noun as far as rules go.
+pub(super) fn plural_of(word: &str) -> String {
     if word.ends_with("sh") || word.ends_with("ch") || word.ends_with('s') || word.ends_with('x') {
         format!("{word}es")
     } else if let Some(stem) = word.strip_suffix('y').filter(|stem| !stem.ends_with(['a', 'e', 'o', 'u'])) {

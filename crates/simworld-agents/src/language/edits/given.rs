@@ -105,7 +105,14 @@ impl Reader<'_> {
             }
             read => read?,
         };
-        if is_coloured && what.target == Target::Them && so.0 == 1 {
+        // "Paint every car black unless it is blue": each of them.
+        let each = what.target == Target::It
+            && wishes
+                .iter_mut()
+                .flatten()
+                .flat_map(Wish::objects_mut)
+                .all(|object| object.count == Count::All);
+        if is_coloured && (what.target == Target::Them || each) && so.0 == 1 {
             // "Paint the benches green unless they are red": those that are not.
             let all = wishes.iter_mut().flatten().flat_map(Wish::objects_mut);
             all.for_each(|object| restrict(object, &what, so.1));

@@ -86,7 +86,39 @@ impl Reader<'_> {
             return self.certain(start + words, end).map(remove);
         }
         (start + 1..end).find_map(|cut| {
-            let gone = longest_phrase(&self.lexemes[cut..end], GONE) == Some(end - cut);
+            // "The kids come out" go nowhere.
+            let is_particle = matches!(self.word(cut), Some("out" | "away")) && cut + 1 == end;
+            let is_of_verb = is_particle
+                && matches!(
+                    self.word(cut - 1),
+                    Some(
+                        "come"
+                            | "comes"
+                            | "came"
+                            | "go"
+                            | "goes"
+                            | "went"
+                            | "get"
+                            | "run"
+                            | "ran"
+                            | "walk"
+                            | "head"
+                            | "find"
+                            | "figure"
+                            | "turn"
+                            | "work"
+                            | "hang"
+                            | "eat"
+                            | "camp"
+                            | "blow"
+                            | "fly"
+                            | "look"
+                            | "move"
+                            | "are"
+                            | "is"
+                    )
+                );
+            let gone = longest_phrase(&self.lexemes[cut..end], GONE) == Some(end - cut) && !is_of_verb;
             let stop = cut - usize::from(super::super::lexer::is_mark(&self.lexemes[cut - 1]));
             if gone && stop > start && self.is_certain(start) {
                 self.certain(start, stop).map(remove)

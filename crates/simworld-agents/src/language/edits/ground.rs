@@ -306,6 +306,22 @@ impl Finder<'_> {
                 };
                 Ok(roads.iter().copied().filter(lies).collect())
             }
+            StreetRef::Beyond { roads, compass, cross } => {
+                let crossing = self.junction(roads, cross, "these")?;
+                let from = network.intersections[crossing.index()].center;
+                let way = direction(compass.heading());
+                let lies = |road: &RoadId| {
+                    let line = &network.roads[road.index()].centerline;
+                    let (middle, _) = polyline::at(line, polyline::length(line) * 0.5);
+                    (middle - from).dot(&way) > 0.0
+                };
+                let found: Vec<RoadId> = roads.iter().copied().filter(lies).collect();
+                if found.is_empty() {
+                    missing("such a piece of the street", "it ends there")
+                } else {
+                    Ok(found)
+                }
+            }
             StreetRef::Half(roads, compass) => Ok(half_of(network, roads, *compass)),
             StreetRef::To(relation, thing) => {
                 self.road_beside(network, *relation, self.one(thing)?, &thing.text)

@@ -89,6 +89,9 @@ pub(super) fn said(lexemes: &[Lexeme]) -> u64 {
             Token::Word(word) => xxh3_64_with_seed(word.as_bytes(), seed),
             Token::Number(number) => xxh3_64_with_seed(&number.to_bits().to_le_bytes(), seed),
             Token::Id(id) => xxh3_64_with_seed(&id.index().to_le_bytes(), !seed),
+            Token::Ids(ids) => {
+                ids.iter().fold(!seed, |so_far, id| xxh3_64_with_seed(&id.index().to_le_bytes(), so_far))
+            }
             Token::Open => xxh3_64_with_seed(b"(", seed),
             Token::Close => xxh3_64_with_seed(b")", seed),
             Token::Comma => xxh3_64_with_seed(b",", seed),

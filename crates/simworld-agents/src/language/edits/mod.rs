@@ -11,6 +11,7 @@ mod aside;
 mod ask;
 mod asked;
 mod attempts;
+mod bare;
 mod bounds;
 mod breaks;
 mod change;
@@ -33,6 +34,7 @@ mod measures;
 mod memo;
 mod mistaken;
 mod naming;
+mod narrowed;
 mod nearer;
 mod noun;
 mod nth;
@@ -51,6 +53,7 @@ mod plain;
 mod polite;
 mod portions;
 mod predicates;
+mod remaining;
 mod remarks;
 mod repairs;
 mod resolve;
@@ -67,6 +70,7 @@ mod spoken;
 mod standing;
 mod stated;
 mod stood;
+mod strangers;
 mod supposed;
 mod things;
 mod told;
@@ -147,6 +151,7 @@ pub(crate) fn read(
     retold::in_plain_words(&mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     phrased::in_plain_words(words, &mut lexemes, &names);
+    narrowed::in_plain_words(&mut lexemes);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
     which::in_plain_words(&mut lexemes);
@@ -169,11 +174,16 @@ pub(crate) fn read(
     let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     let stood = reader.with_old_places(&finder);
     let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
+    let left = reader.with_what_is_left(&finder);
+    let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
     if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
         return Err(reader.not_understood("say of what every second one is meant").into());
     }
     dress_new(&mut wishes);
+    if focus.it.is_none() {
+        gone_by_name(&mut wishes);
+    }
     gone_once(&mut wishes);
     made_once(&mut wishes);
     paint_at_once(&mut wishes, &finder);
@@ -235,6 +245,16 @@ fn paint_at_once(wishes: &mut [Vec<Wish>], finder: &resolve::Finder<'_>) {
     }
 }
 
+/// "I've no use for it, so delete the crate": "it" is what is named then, where nothing was spoken of before.
+fn gone_by_name(wishes: &mut Vec<Vec<Wish>>) {
+    if let [first, second, ..] = &wishes[..]
+        && matches!(&first[..], [Wish::Remove { what }] if what.iter().all(says::is_it))
+        && matches!(&second[..], [Wish::Remove { what }] if !what.iter().any(says::is_it))
+    {
+        wishes.remove(0);
+    }
+}
+
 /// "I'm sick of that crate, get it out of here": what goes goes once.
 fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
     let removes = |readings: &[Wish]| matches!(readings.first(), Some(Wish::Remove { .. }));
@@ -265,6 +285,27 @@ fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
 fn made_once(wishes: &mut Vec<Vec<Wish>>) {
     let mut at = 1;
     while at < wishes.len() {
+        // "A gazebo, yes, put one behind the school": the first is the one.
+        let is_named_first = match (wishes[at - 1].as_slice(), wishes[at].as_slice()) {
+            ([Wish::Add { things: named, at: nowhere }], [Wish::Add { things, at: place }, ..]) => {
+                let said = |one: &wish::NewThing| {
+                    one.count == 1 && ["one", "it"].contains(&one.text.to_lowercase().as_str())
+                };
+                let [thing] = &named[..] else {
+                    at += 1;
+                    continue;
+                };
+                nowhere.is_empty()
+                    && thing.count == 1
+                    && !place.is_empty()
+                    && matches!(&things[..], [one] if said(one) && one.words == thing.words)
+            }
+            _ => false,
+        };
+        if is_named_first {
+            wishes.remove(at - 1);
+            continue;
+        }
         let is_again = match (wishes[at - 1].first(), wishes[at].as_slice()) {
             (Some(Wish::Add { things: made, at: place }), [Wish::Add { things, at: own }, ..]) => {
                 let said_again = |one: &wish::NewThing| {
@@ -361,4 +402,7 @@ fn more_words() -> impl Iterator<Item = &'static str> {
         .chain(nth::words())
         .chain(ends::words())
         .chain(portions::words())
+        .chain(remaining::words())
+        .chain(bare::words())
+        .chain(narrowed::words())
 }

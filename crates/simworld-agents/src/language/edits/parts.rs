@@ -383,9 +383,8 @@ impl Reader<'_> {
             return Some(wishes);
         }
         // "Paint the white car blue and the black one too".
-        if let Some(wishes) =
-            of_those.as_ref().and_then(|order| self.over(order).more_of_it(said, order.len()))
-        {
+        let too = of_those.as_ref().and_then(|_| self.with_noun(said, start, end));
+        if let Some(wishes) = too.as_ref().and_then(|order| self.over(order).more_of_it(said, order.len())) {
             return Some(wishes);
         }
         if let Ok(wishes) = self.wish(end)
@@ -400,7 +399,14 @@ impl Reader<'_> {
         // "Swap the red bench with the blue one".
         let one = (start..end).find(|at| matches!(self.word(*at), Some("one" | "ones"))).unwrap_or(end);
         let own = Said { noun: self.last_noun(start, one), ..Said::default() };
-        self.with_noun(&own, start, end).and_then(|order| self.read_anew(&order))
+        let found = self.with_noun(&own, start, end).and_then(|order| self.read_anew(&order));
+        // "A cone next to the car to the left of the black one": the black car.
+        found.or_else(|| {
+            let noun = (start + 1..one.min(end)).rev().find_map(|at| self.last_noun(at, one))?;
+            let own =
+                Said { noun: Some(noun).filter(|noun| own.noun.as_ref() != Some(noun)), ..Said::default() };
+            self.with_noun(&own, start, end).and_then(|order| self.read_anew(&order))
+        })
     }
 
     /// "The white one", "the others ones": which of those that were named before.

@@ -160,10 +160,29 @@ impl Reader<'_> {
             if let Some((compass, after)) = self.half(after, end) {
                 return Some((StreetRef::Half(street.roads.to_vec(), compass), after));
             }
+            if let Some((compass, cross, after)) = self.beyond(after, end) {
+                return Some((StreetRef::Beyond { roads: street.roads.to_vec(), compass, cross }, after));
+            }
             let (between, after) = self.crossing_streets(after, end);
             return Some((StreetRef::Named { roads: street.roads.to_vec(), between }, after));
         }
         self.described_street(at, end).or_else(|| self.unknown_street(at, end))
+    }
+
+    /// "North of Elm Street", behind a street that crosses it, and where that ends.
+    fn beyond(
+        &self,
+        at: usize,
+        end: usize,
+    ) -> Option<(super::super::compass::Compass, Vec<simworld_core::id::RoadId>, usize)> {
+        let mut parser = self.parser(at, end);
+        let compass = parser.compass()?;
+        let of = longest_phrase(&self.lexemes[parser.at.min(end)..end], &["of"]);
+        let from = parser.at.min(end) + of.unwrap_or(0);
+        // Whoever reads directions may have read "of" too.
+        let is_of = of.is_some() || self.word(from.checked_sub(1)?) == Some("of");
+        let street = self.view.streets?.at(self.lexemes.get(from..end)?).filter(|_| is_of)?;
+        Some((compass, street.roads.to_vec(), from + street.words))
     }
 
     /// "The eastern half of Oak Street".

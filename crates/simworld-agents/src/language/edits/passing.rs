@@ -19,6 +19,12 @@ const COMES: &Phrases = &Phrases::of(&["is coming", "is coming soon", "is near",
 const NEED_ROOM: &Phrases = &Phrases::of(&["we need the floor", "we need the space", "we need the room", "we need the spot", "we need the place", "i need the floor", "i need the space", "i need the room", "i need the spot", "they need the space", "they need the room", "we need that space", "i need that space",
     "we need that spot"]);
 
+/// What somebody cries of, which is no slip of anything.
+const CRIED: &[&str] = &[
+    "mess", "shame", "pity", "sight", "racket", "nuisance", "disgrace", "relief", "hassle", "bother", "drag",
+    "joke", "farce",
+];
+
 /// Leaves them out, unless nothing else is said.
 pub(super) fn leave_out(lexemes: &mut Vec<Lexeme>) {
     let mut from = 0;
@@ -40,12 +46,19 @@ fn is_passing(words: &[Lexeme]) -> bool {
     let leaves_open = longest_phrase(words, ANY).is_some() && (1..words.len()).any(|at| ends(WILL_DO, at));
     let is_season =
         longest_phrase(words, SEASONS).is_some_and(|said| said < words.len() && ends(COMES, said));
-    leaves_open || is_season || longest_phrase(words, NEED_ROOM).is_some()
+    // "..., what a mess".
+    let exclaims = longest_phrase(words, &["what a", "what an", "such a", "such an"])
+        .is_some_and(|said| (said + 1..=said + 3).contains(&words.len()));
+    leaves_open || is_season || exclaims || longest_phrase(words, NEED_ROOM).is_some()
 }
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    [ANY, WILL_DO, SEASONS, COMES, NEED_ROOM].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+    [ANY, WILL_DO, SEASONS, COMES, NEED_ROOM]
+        .into_iter()
+        .flatten()
+        .flat_map(|phrase| phrase.split(' '))
+        .chain(CRIED.iter().copied())
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
     called_to(lexemes);
     of_colour(lexemes);
     spots(lexemes);
-    others_too(lexemes);
+    super::remaining::others_too(lexemes);
     needed_one(lexemes);
     relatives(lexemes);
     super::supposed::in_plain_words(lexemes);
@@ -130,7 +130,9 @@ fn contracted_is<'a>(written: &str, word: &'a str, next: &str) -> Option<&'a str
         "thats", "whats", "theres", "wheres", "heres", "its", "hes", "shes", "lets", "whos", "hows", "whens",
     ];
     let is_thing = word.len() > 2 && !SHORT.contains(&word);
-    if is_owner(written) && is_thing && STATES.contains(&next) { word.get(..word.len() - 1) } else { None }
+    // The letter may be gone already.
+    let stem = word.strip_suffix('s').unwrap_or(word);
+    (is_owner(written) && is_thing && STATES.contains(&next)).then_some(stem)
 }
 
 /// "Bo's parched": somebody by name, and no thing of his behind.
@@ -358,28 +360,6 @@ fn of_colour(lexemes: &mut Vec<Lexeme>) {
             at += paint;
         }
         at += 1;
-    }
-}
-
-/// "Only the red chair stays, remove the others" says the same twice.
-fn others_too(lexemes: &mut Vec<Lexeme>) {
-    #[rustfmt::skip]
-    const OTHERS: &Phrases = &Phrases::of(&["remove the others", "delete the others", "remove the rest", "delete the rest", "take the others away", "take the rest away", "get rid of the others", "get rid of the rest", "the others go", "the rest go", "the rest goes",
-        "the others can go", "the rest can go", "the others must go", "the rest must go", "the others have to go", "the rest has to go", "clear the rest", "clear the others", "clear away the rest", "remove all the others", "remove all others",
-        "delete all others", "lose the rest", "lose the others", "all others go", "all the others go", "ditch the rest", "ditch the others", "bin the rest", "scrap the rest", "away with the rest", "away with the others"]);
-    let Some(only) =
-        (0..lexemes.len()).find(|at| longest_phrase(&lexemes[*at..], &["only", "keep", "just"]).is_some())
-    else {
-        return;
-    };
-    let stop = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
-    let found = (only + 2..stop).find(|at| longest_phrase(&lexemes[*at..stop], OTHERS) == Some(stop - at));
-    if let Some(at) = found {
-        let before = lexemes[..at].iter().rev().take_while(|lexeme| {
-            is_mark(lexeme) || matches!(&lexeme.token, Token::Word(word) if word == "and" || word == "so")
-        });
-        let from = at - before.count();
-        lexemes.truncate(from);
     }
 }
 

@@ -210,9 +210,17 @@ impl Reader<'_> {
         // "For Ada, and one for Bo" is more than what for.
         let goes_on = (behind..end).any(|at| {
             let next = at + super::parse::joint(&self.lexemes[at..end]).unwrap_or(0);
+            // "For the crew, and a dog next to Ada".
+            let is_new = || {
+                let noun = (next + 1).min(end);
+                longest_phrase(&self.lexemes[next..end], &["a", "an", "some"]).is_some()
+                    && self.names.asset_words(&self.lexemes[noun..end]).is_some()
+                    && (noun..end).any(|at| self.is_place(at))
+            };
             next > at
                 && next < end
-                && longest_phrase(&self.lexemes[next..end], &["one", "two", "three", "another"]).is_some()
+                && (longest_phrase(&self.lexemes[next..end], &["one", "two", "three", "another"]).is_some()
+                    || is_new())
         });
         // "The bench which is closest to the bin" says which.
         let is_which = self.word(from) == Some("which")

@@ -299,6 +299,12 @@ impl Finder<'_> {
             let is_nearest = matches!(except.relation, Some(Stands::NearestTo(..)));
             let is_one = except.count == Count::One
                 && (except.choice != Choice::Open || is_nearest && !plural(except));
+            // "The trees along Oak Street except the smallest": of those the smallest.
+            let of_those = Reference {
+                relation: except.relation.clone().or_else(|| reference.relation.clone()),
+                ..(**except).clone()
+            };
+            let except = if is_one && except.target == reference.target { &of_those } else { &**except };
             let spared = if is_one { vec![self.one(except)?] } else { self.candidates(except)? };
             things.retain(|thing| !spared.contains(thing));
         }

@@ -54,10 +54,10 @@ const RESPELT: &[(&[&str], &str)] = &[
         "can there also be", "could there also be", "is there any way to get", "is there a way to get", "any way to get", "any way we could get", "any way we can get", "any way of getting", "is there any way we could have", "would there be room for",
         "is it possible to add", "would it be possible to add", "wouldnt it be nice to have", "would not it be nice to have", "wouldnt it be great to have", "would it be ok to have", "would it be okay to have", "is it ok to have"], "there should be"),
     (&["close of", "near of", "near from", "close from", "near to of"], "near"), (&["behind of"], "behind"), (&["beside of"], "beside"), (&["out front of", "out the front of"], "in front of"), (&["out the front", "out front"], "in front of it"),
-    (&["bin it", "chuck it", "ditch it", "scrap it", "bin that", "chuck that", "ditch that"], "remove it"), (&["bin them", "chuck them", "ditch them", "scrap them"], "remove them"), (&["if there happens to be", "if there should be", "if there happen to be"], "if there is"),
+    (&["bin it", "chuck it out", "throw it out", "toss it out", "chuck it away", "chuck it", "ditch it", "scrap it", "bin that", "chuck that", "ditch that"], "remove it"), (&["bin them", "chuck them", "ditch them", "scrap them"], "remove them"), (&["if there happens to be", "if there should be", "if there happen to be"], "if there is"),
     (&["is it possible that you", "would it be possible that you"], "could you"),
     (&["it gives"], "there is"), (&["in direction"], "to the"), (&["hold on to"], "keep"),
-    (&["likes of"], ""), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
+    (&["likes of"], ""), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why", "which is exactly why", "thats exactly why", "which is precisely why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
 ];
 
 /// Puts dialect and short forms into the words that are known, and leaves names as they are.
@@ -70,7 +70,7 @@ pub(super) fn in_plain_spelling(words: &str, lexemes: &mut Vec<Lexeme>) {
                 || longest_phrase(&lexemes[at + count..], &["a", "an", "one", "some", "also"]).is_some();
             !is_name(words, lexemes, at)
                 // "The person who stands closest to it" asks nothing.
-                && (*plain != "list people" || at == 0)
+                && (!["list people", "who is the person nearest to"].contains(plain) || at == 0)
                 && (*plain != "place" || is_new() || numbers::count(&lexemes[at + count..]).is_some())
         };
         let Some((plain, count)) = longest(&lexemes[at..], RESPELT).filter(fits) else {

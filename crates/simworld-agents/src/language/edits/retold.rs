@@ -51,7 +51,7 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
 
 /// What begins a clause that says why or what for, behind a request.
 #[rustfmt::skip]
-const WHY: &Phrases = &Phrases::of(&["because", "since", "so that", "otherwise", "or else", "lest", "in case", "given that", "now that", "seeing that", "seeing as", "considering", "even though", "although", "though", "so people", "so everybody", "so everyone", "so nobody",
+const WHY: &Phrases = &Phrases::of(&["because", "until", "since", "so that", "otherwise", "or else", "lest", "in case", "given that", "now that", "seeing that", "seeing as", "considering", "even though", "although", "though", "so people", "so everybody", "so everyone", "so nobody",
     "so visitors", "so kids", "so children", "so students", "so customers", "so guests", "so tourists", "so the", "so we", "so i", "so you", "so they", "so he", "so she", "so it", "so my", "so our", "so no one", "so folks", "so passers", "as people", "as we", "as i", "as they", "as the", "as there", "as everybody", "as everyone",
     "as he", "as she", "as it", "as my", "as our", "as nobody", "as some", "as many", "for we", "for they", "for there", "for everybody", "for it", "whereas", "in order to", "in order that", "in preparation for", "in honour of", "in honor of", "cause", "cos", "coz", "the way", "that way", "this way", "or", "before", "to help", "to keep", "to make", "to give", "to let", "to stop", "to welcome", "to remind", "to celebrate", "to brighten", "to see", "to prevent", "to avoid", "to protect", "to ensure", "to show", "to watch", "to mark", "to catch", "to warn", "to cheer", "to attract", "to feed", "to light", "to look", "to block", "to guide", "to allow", "to be able"]);
 /// Verbs of what is so, and what may stand before one.
@@ -75,12 +75,15 @@ const REQUESTS: &Phrases = &Phrases::of(&["can", "could", "would", "will", "may"
 impl Reader<'_> {
     /// The words told otherwise, in all ways that differ from how they were said, the nearest first.
     pub(super) fn retold(&self) -> Vec<Vec<Lexeme>> {
-        let turned = told_by(&without(self.lexemes, FILLERS), TURNS);
+        let turned = told_by(&without(&without(self.lexemes, FILLERS), ASIDES), TURNS);
         let without_why = told_by(&self.without_why(&turned), TURNS);
         let requests = told_by(&self.requests(&without_why), TURNS);
         let for_nobody = self.without_whom(&turned);
+        let bare = self.without_idle_clauses(&turned).map(|bare| told_by(&bare, TURNS));
+        let bare_without_why = bare.as_ref().map(|bare| told_by(&self.without_why(bare), TURNS));
         let mut ways: Vec<Vec<Lexeme>> = Vec::new();
-        for way in [turned, for_nobody, without_why, requests] {
+        let plainer = [turned, for_nobody, without_why, requests];
+        for way in plainer.into_iter().chain(bare).chain(bare_without_why) {
             let said =
                 |lexemes: &[Lexeme]| lexemes.iter().map(|lexeme| lexeme.token.clone()).collect::<Vec<_>>();
             let is_new =
@@ -243,6 +246,16 @@ fn without(lexemes: &[Lexeme], asides: &Phrases) -> Vec<Lexeme> {
             }
         } else {
             kept.push(lexemes[at].clone());
+            at += 1;
+        }
+    }
+    // "And, while I'm at it, a bench": the mark that is left says nothing.
+    let goes_on = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["and", "but", "so", "then"].contains(&word.as_str()));
+    let mut at = 1;
+    while kept.len() < lexemes.len() && at < kept.len() {
+        if kept[at].token == Token::Comma && goes_on(&kept[at - 1]) {
+            kept.remove(at);
+        } else {
             at += 1;
         }
     }

@@ -111,6 +111,8 @@ impl<'a> Reader<'a> {
                     .iter()
                     .filter(|subject| ought || needed(subject))
                     .find_map(|subject| rest.predicate(subject, (from, cut), end))
+                    // "The barbecue should be red" makes none.
+                    .filter(|wishes| !self.is_yet_to_come(from, cut) || are_placed(wishes))
             })
         })
     }
@@ -186,7 +188,7 @@ impl<'a> Reader<'a> {
             }
         } else if !self.is_definite(from)
             || self.is_bare_plural(from, stop)
-            || found.is_empty() && self.is_unknown(from, stop)
+            || found.is_empty() && (self.is_unknown(from, stop) || self.is_yet_to_come(from, stop))
         {
             let mut reader = Reader { at: from, ..sub };
             if let Ok(thing) = reader.new_thing(stop) {
@@ -211,6 +213,19 @@ impl<'a> Reader<'a> {
         !(from..end).any(|at| self.is_certain(at)) && !(from..end).any(is_said)
     }
 
+    /// Whether something is spoken of as if it were there, which is not, and could be: "the barbecue should go north of the statue".
+    fn is_yet_to_come(&self, from: usize, end: usize) -> bool {
+        let Some(words) = longest_phrase(&self.lexemes[from..end], &["the", "the new"]) else { return false };
+        let noun = from + words;
+        // What is called new is, whoever may have it.
+        let may_be = || words > 1 || self.names.asset_words(&self.lexemes[noun..end]) == Some(end - noun);
+        let is_there = || match self.one_of(from, end) {
+            Ok(what) => self.how_many(&what) > 0,
+            Err(error) => !matches!(error, PlanError::NotFound { .. }),
+        };
+        noun < end && may_be() && !is_there()
+    }
+
     /// Whether "can" and the like belong to a noun here: "a garbage can is missing".
     fn is_inside_noun(&self, from: usize, cut: usize, end: usize) -> bool {
         (from..cut).any(|at| category(&self.lexemes[at..end]).is_some_and(|(_, words)| at + words > cut))
@@ -222,7 +237,7 @@ impl<'a> Reader<'a> {
         const CERTAIN: &Phrases = &Phrases::of(&["the", "that", "this", "these", "those", "my", "our", "your", "both", "all", "every", "each", "it", "them", "him", "her", "any",
             "his", "their", "its", "either", "he", "she", "they", "everybody", "everyone"]);
         longest_phrase(&self.lexemes[from..], CERTAIN).is_some()
-            || matches!(self.lexemes.get(from), Some(Lexeme { token: Token::Id(_), .. }))
+            || matches!(self.lexemes.get(from), Some(Lexeme { token: Token::Id(_) | Token::Ids(_), .. }))
             || self.names.exact(&self.lexemes[from..]).is_some()
     }
 
@@ -374,6 +389,11 @@ pub(super) fn is_between(word: &str) -> bool {
 const MOST_NAMED: usize = 9;
 /// Orders that are put together are not put together once more.
 pub(super) const DEEPEST: u8 = 3;
+
+/// Whether new things are asked for, all of which stand somewhere.
+fn are_placed(wishes: &[Vec<Wish>]) -> bool {
+    wishes.iter().flatten().all(|wish| matches!(wish, Wish::Add { at, .. } if !at.is_empty()))
+}
 
 /// Whether a reference says nothing but what was spoken of.
 pub(super) fn is_it(reference: &Reference) -> bool {

@@ -15,7 +15,7 @@ impl Reader<'_> {
         let start = self.at;
         if let Some(wish) = self.scaled(start, end) {
             self.at = end;
-            return Ok(vec![vec![wish]]);
+            return Ok(vec![vec![self.by_a_share(wish, (start, end), usual)]]);
         }
         // "Shrink the statue by one metre".
         let metres = (start + 1..end).find_map(|at| {
@@ -40,6 +40,27 @@ impl Reader<'_> {
         let what = self.things(start, little.unwrap_or(end))?;
         self.at = end;
         Ok(vec![vec![Wish::Scale { what, factor: usual }]])
+    }
+
+    /// "Enlarge the mailbox by half" and "shrink it by a third": so much of what it is more, or less.
+    fn by_a_share(&self, wish: Wish, (start, end): (usize, usize), usual: f64) -> Wish {
+        const SHARES: &[&str] = &[
+            "by half",
+            "by a half",
+            "by one half",
+            "by a third",
+            "by one third",
+            "by a quarter",
+            "by one quarter",
+        ];
+        let says_so = (start..end).any(|at| longest_phrase(&self.lexemes[at..end], SHARES).is_some());
+        match wish {
+            Wish::Scale { what, factor } if says_so && factor < 1.0 => {
+                let factor = if usual > 1.0 { 1.0 + factor } else { 1.0 - factor };
+                Wish::Scale { what, factor }
+            }
+            wish => wish,
+        }
     }
 
     /// Things, and behind them a size.

@@ -106,6 +106,10 @@ const USUAL: &[(&str, &str)] = &[
     ("awya", "away"),
     ("rdo", "red"),
     ("rmove", "remove"),
+    ("whit", "white"),
+    ("whte", "white"),
+    ("thnik", "think"),
+    ("befor", "before"),
 ];
 
 /// Behind "tow", that it is an order and no slip of "two".

@@ -66,7 +66,9 @@ impl Reader<'_> {
         (at + 2..self.lexemes.len().min(at + LONGEST)).find_map(|from| {
             let end = from + longest_phrase(&self.lexemes[from..], STOOD)?;
             let ends = self.lexemes.get(end).is_none_or(is_mark)
-                || matches!(self.word(end), Some("and" | "before" | "please" | "instead"));
+                || matches!(self.word(end), Some("and" | "before" | "please" | "instead"))
+                || longest(&self.lexemes[end..], &VERBS)
+                    .is_some_and(|(verb, _)| matches!(verb, Verb::Add | Verb::Put));
             ends.then_some((from, end))
         })
     }
@@ -77,8 +79,13 @@ impl Reader<'_> {
             let begins = at == 0
                 || is_mark(&self.lexemes[at - 1])
                 || matches!(self.word(at - 1), Some("please" | "and" | "you" | "just" | "then" | "so"));
+            // What is taken away leaves its place as "there", but for what is told before its verb.
+            let goes = before > 0 && is_mark(&self.lexemes[before - 1])
+                || matches!(self.word(before - 1), Some("and" | "then"));
             longest(&self.lexemes[at..before], &VERBS)
-                .filter(|(verb, _)| begins && matches!(verb, Verb::Move))
+                .filter(|(verb, _)| {
+                    begins && (matches!(verb, Verb::Move) || goes && matches!(verb, Verb::Remove))
+                })
                 .map(|(_, words)| at + words)
         })?;
         let mut parser = self.parser(verb, before);

@@ -22,6 +22,14 @@ impl Reader<'_> {
         "so she looks at", "so he looks at", "to look towards", "in the direction of", "so that it looks towards",
         "to point at"]);
         let start = self.at;
+        // "Turn around the bench that stands on the square".
+        if matches!(self.word(start), Some("around" | "round"))
+            && self.is_certain(start + 1)
+            && let Ok(what) = self.things(start + 1, self.before_politeness(start + 1, end))
+        {
+            self.at = end;
+            return Ok(vec![vec![Wish::Rotate { what, angle: PI }]]);
+        }
         for cut in start + 1..end {
             let rest = &self.lexemes[cut..self.before_politeness(cut, end)];
             // "To the right" is no "right?".

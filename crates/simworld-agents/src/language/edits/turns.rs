@@ -16,6 +16,52 @@ pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah
 /// certain things, `X` up to three words without a place, `F` how many times as large, `Y` a sky, `U` a superlative; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 pub(super) const TURNS: &[(&str, &str)] = &[
+    ("whats|what is the story|deal|matter|score with|behind|about A Q", "describe A"),
+    ("D A is|are the|a better|best|nicer idea|choice|option|plan|thing , so|- please|- add|put|build|make|place|plant B there|-", "add D A"),
+    ("how many A grow|exist|live|stand|remain|wait|sit", "how many A are there"),
+    ("how many A grow|live|stand|wait|sit W", "how many A are W"),
+    ("O roll|push|bring|drag|carry|wheel|slide|shove|drive|fly|ship|haul D A over|up|out|in|down|across|here|- so|- that it stands|is|sits|lands|goes|stays|lies W", "O put D A W"),
+    ("O ring|encircle|surround|circle A with B , one|each|- every|each M", "O put B every M around A"),
+    ("O ring|encircle|surround|circle A with B every|each M", "O put B every M around A"),
+    ("D A should|could|must|has|is to|- play|perform|busk|sing|dance|work|serve|guard|patrol|watch|shine|grow|bloom|burn|sleep|greet|practise W", "add D A W"),
+    ("O give N a quarter turn Q", "O turn N a quarter turn Q"),
+    ("O give N a half turn Q", "O turn N a half turn Q"),
+    ("O give N half a turn Q", "O turn N half a turn Q"),
+    ("P the part|piece|stretch|section|bit|segment of A that|which|- lies|is|runs|goes|- between B", "P A between B"),
+    ("P , so|and|- so|- please|- just|- go|- ahead|- and|- put|add|place|set|build|plant it|one|them there|in|up|down|out|please|-", "P"),
+    ("you couldnt|wouldnt|cant by any chance P , could|would|can you", "P"),
+    ("you couldnt|wouldnt|cant by any chance P", "P"),
+    ("you couldnt|wouldnt|cant possibly|- P , could|would|can you", "P"),
+    ("id|wed sleep|feel|be better|safer|happier|easier|calmer|fine|happy if D A stood|was|were|sat|grew W", "add D A W"),
+    ("id|wed want A", "i want A"),
+    ("P , which|thats|that is|- exactly|precisely|just|- why id|wed|i|we like|want|need|would|- like|- D B", "add D B"),
+    ("which|what A do|have we|i|you own|have|got|- Q", "list the A"),
+    ("what have|do we|you got|have here|there|- in the way of A", "list the A"),
+    ("how many A have we|you got here|there|- by|- now|-", "how many A are there"),
+    ("W it misses|lacks|wants|needs D A", "add D A W"),
+    ("D A has|have been on my|our list|mind|wishlist|agenda for|since B", "add D A"),
+    // New things that are asked for around them.
+    ("D A is|are all i|we|id|wed want|need|ask|require|like for|- now|today|-", "add D A"),
+    ("would|could|might D A be possible|ok|okay|fine|alright|feasible|doable|allowed Q", "add D A"),
+    ("W , thats|there where|is|- where|- i|we|id|wed want|need|like|would|- like|- the|a|an A", "put a A W"),
+    ("have|get somebody|someone|anybody to|- P", "P"),
+    ("O have|make|let|get A leave|quit B and go|move|walk|come|head|run to|into|over C", "O move A to C"),
+    ("O turn|rotate|swivel A so that|- he|she|it|they can|could|may|will|- see|sees|watch|watches|look|looks at|- B", "O make A face B"),
+    ("O rename|rechristen A , call it|him|her|- B", "O name A B"),
+    // Streets.
+    ("from now|today on|onwards|onward no|not a|- single|- car|cars|vehicle|vehicles|traffic|lorry|driver may|can|must|shall|should|will|is|are allowed|permitted|- to|- use|enter|drive|go|pass|run|be|- on|along|through|down|into|- A", "close A"),
+    ("no car|cars|vehicle|vehicles|traffic|lorry|driver may|can|must|shall|should|is|are allowed|permitted|- to|- use|enter|drive|go|pass|run|be|- on|along|through|down|into|- A", "close A"),
+    ("A is|are for B , so|- no|without cars|traffic|vehicles there|here|please|-", "close A"),
+    ("O line A with B , M apart , on both sides", "O put B every M on both sides of A"),
+    ("O line A with B , M apart on both sides", "O put B every M on both sides of A"),
+    ("O line A with B , M apart", "O put B every M along A"),
+    ("O line A with B , one|each|- every|each M", "O put B every M along A"),
+    ("P in|at|on the middle|centre|center of the crossing|junction|intersection|crossroads of A", "P at the junction of A"),
+    // How many there are.
+    ("id|wed|i|we|- would|- like|want|love|need to know|learn|hear the number|count of A", "how many A are there"),
+    ("how many A are|stand|lie|sit parked|standing|waiting|sitting|lying|left|- out|over|- there|here|around|outside|about right|- now|today|-", "how many A are there"),
+    ("how many A are|is their Q", "how many A are there Q"),
+    ("how many A here|there are K", "how many K A are there"),
     // Rows that are told from both ends.
     ("from A to B , C every|each M", "C every M between A and B"),
     ("from A to B C every|each M", "C every M between A and B"),
@@ -354,6 +400,21 @@ pub(super) const TURNS: &[(&str, &str)] = &[
 /// As [`TURNS`], of what would be misunderstood otherwise.
 #[rustfmt::skip]
 pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
+    ("O make|create|produce D copies of A and place|put|set|stand|park|leave|position them|both B", "O make D copies of A B"),
+    ("O make|create|produce a|one copy of A and place|put|set|stand|park|leave|position it B", "O make a copy of A B"),
+    ("O land D A W", "O put D A W"),
+    ("P building|shop|place|store|house|kiosk where A is|are sold Q", "P building that sells A Q"),
+    ("P building|house|shop with the|a locked door Q", "P building nearest to the locked door Q"),
+    ("P building|house|shop with the|an open door Q", "P building nearest to the open door Q"),
+    ("it would be A if you|we|somebody|someone|they planted|put|placed|added|installed|set|parked|built|stood up|- D B", "put D B"),
+    ("itd be A if you|we|somebody|someone|they planted|put|placed|added|installed|set|parked|built|stood up|- D B", "put D B"),
+    ("if A , and|but|which i|we very|- much|- strongly|- doubt|believe|think|suspect|know|bet|assume|imagine B , C", "if A , C"),
+    ("unless A , and|but|which i|we very|- much|- strongly|- doubt|believe|think|suspect|know|bet|assume|imagine B , C", "unless A , C"),
+    ("me|- i|we have no need|use of|for A any|- more|longer|now|anymore|- , you can|may|could be|- throw|throwing|take|taking|chuck|chucking it|that away|out Q", "remove A"),
+    ("i|we was|were going|about to ask for|order|suggest|request|propose A , but on|- second|- thoughts|thought|- Q", "Q"),
+    ("unless there is|are a|an|any|- A near|by|beside|outside|at|behind B , Q put|add|place|build|set|plant|stand one C it", "if there is no A near B , put a A C B"),
+    ("unless theres a|an|any|- A near|by|beside|outside|at|behind B , Q put|add|place|build|set|plant|stand one C it", "if there is no A near B , put a A C B"),
+    ("P around|round A , one|each every|each M", "P every M around A"),
     ("if there is|are not a|an|any X , P put|add|place|build|set|plant|make|install one B", "if there is no X , P put a X B"),
     ("if there is|are no X , P put|add|place|build|set|plant|make|install one B", "if there is no X , P put a X B"),
     ("if theres no X , P put|add|place|build|set|plant|make|install one B", "if there is no X , P put a X B"),
@@ -398,5 +459,5 @@ pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
 ];
 /// What is said by the way, in the words of who asks kindly.
 #[rustfmt::skip]
-pub(super) const ASIDES: &Phrases = &Phrases::of(&["come to think of it", "before i forget", "before i go", "if memory serves", "for instance", "for example", "if i remember rightly", "if im not mistaken", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
+pub(super) const ASIDES: &Phrases = &Phrases::of(&["dont get me wrong", "dont ask me how", "dont ask me why", "dont ask why", "dont you worry", "dont laugh", "while i think of it", "while im thinking of it", "once thats done", "when thats done", "once that is done", "when that is done", "if it isnt too much bother", "if it isnt too much trouble", "if it is not too much bother", "if it is not too much trouble", "if its not too much bother", "while youre in there", "when you have a second", "when you get a second", "just out of curiosity", "out of curiosity", "if it were up to me", "bless him", "bless her", "bless them", "truth be told", "come to think of it", "before i forget", "before i go", "if memory serves", "for instance", "for example", "if i remember rightly", "if im not mistaken", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
     "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);

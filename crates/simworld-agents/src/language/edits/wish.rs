@@ -158,6 +158,8 @@ pub(super) enum Wish {
 pub(super) enum StreetRef {
     /// By its name; between two that cross it, if they are named.
     Named { roads: Vec<RoadId>, between: Option<[Vec<RoadId>; 2]> },
+    /// Of a street the pieces on a side of where another crosses it.
+    Beyond { roads: Vec<RoadId>, compass: Compass, cross: Vec<RoadId> },
     /// Of a street the pieces on a side of its middle.
     Half(Vec<RoadId>, Compass),
     /// By how it runs to a thing.

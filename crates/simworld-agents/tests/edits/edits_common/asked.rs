@@ -4,7 +4,7 @@ use crate::tables::lines_of;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 21] = [
+const SETS: [&str; 23] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -26,6 +26,8 @@ const SETS: [&str; 21] = [
     "nineteenth.edits",
     "twentieth.edits",
     "twentyfirst.edits",
+    "twentysecond.edits",
+    "twentythird.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
