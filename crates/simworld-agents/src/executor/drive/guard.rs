@@ -72,7 +72,7 @@ fn meets(one: &Obb, other: &Obb, beside: f64) -> bool {
 mod tests {
     use simworld_core::geometry::{Point3, Pose, Twist, pose_facing};
     use simworld_core::id::EntityId;
-    use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+    use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 
     use super::super::around::look;
     use super::*;
