@@ -45,7 +45,8 @@ impl Part {
             }
         }
         // Bodies that are on no lane of the traffic's own are in the way of who changes, and one passes those that stand.
-        for Obstacle { track, near, far, v, stands, .. } in scene.sight.obstacles.iter().copied() {
+        let bars = scene.sight.obstacles.iter().filter(|body| body.bars(0.0)).copied();
+        for Obstacle { track, near, far, v, stands, .. } in bars {
             let place = scene.tracks.layout.place(track);
             if place.part == self.number() && (track as usize) < scene.tracks.lanes {
                 let (lane, length) = (place.local, far - near);

@@ -19,8 +19,6 @@ const LONGEST: f64 = 20.0;
 /// Who is slower than this does not go on past a body that leaves less than this beside it, m/s and m.
 const CRAWLS: f64 = 3.0;
 const TO_SIDE: f64 = 0.2;
-/// Half the width that a vehicle wants for itself, m; the broad ones more, by what they are broader.
-const USUAL: f64 = 1.3;
 
 /// A track as its drivers see it.
 pub(super) struct Lane<'a> {
@@ -344,9 +342,8 @@ impl View<'_> {
 
     /// Stops behind foreign bodies on the track.
     fn beware(&mut self, sight: &Sight<'_>, track: Track, half_width: f64) {
-        let in_way = |body: &&Obstacle| body.aside < (half_width + TO_SIDE).max(USUAL);
-        if let Some(obstacle) = on_track(sight, track).iter().filter(in_way).find(|body| body.near >= self.s)
-        {
+        let bars = |body: &&Obstacle| body.near >= self.s && body.bars(half_width);
+        if let Some(obstacle) = on_track(sight, track).iter().find(bars) {
             // Nearer to what stands than to what may move.
             let closer = if obstacle.v > STANDING { 0.0 } else { self.idm.gap * 0.5 };
             self.follow(obstacle.near - self.s + closer, obstacle.v);
@@ -360,7 +357,7 @@ impl View<'_> {
     }
 }
 
-/// The first body on a track whose far side is beyond a station.
+/// The first body on a track whose near side is beyond a station, and that no car would pass.
 fn first_obstacle<'a>(sight: &Sight<'a>, track: Track, beyond: f64) -> Option<&'a Obstacle> {
-    on_track(sight, track).iter().find(|obstacle| obstacle.near >= beyond)
+    on_track(sight, track).iter().find(|obstacle| obstacle.near >= beyond && obstacle.bars(0.0))
 }

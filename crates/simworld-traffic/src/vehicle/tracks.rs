@@ -46,6 +46,16 @@ pub(crate) struct Obstacle {
     pub(crate) stands: bool,
 }
 
+impl Obstacle {
+    /// Whether it leaves no room for a vehicle of half that width, m, beside it; cars and what is narrower keep as far off as cars do.
+    pub(crate) fn bars(&self, half_width: f64) -> bool {
+        /// Half the width that cars want for themselves, m, and what broader ones want at each side.
+        const USUAL: f64 = 1.3;
+        const TO_SIDE: f64 = 0.2;
+        self.aside < (half_width + TO_SIDE).max(USUAL)
+    }
+}
+
 /// What a step asks of a way across an intersection, apart from its lists.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Way {

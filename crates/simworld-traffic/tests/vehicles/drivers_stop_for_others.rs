@@ -7,7 +7,8 @@ use simworld_core::geometry::{Point3, Vector2, direction, planar, pose_facing, y
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan, Turn, polyline};
 use simworld_core::scene::Shape;
 use simworld_core::seed::Seed;
-use simworld_traffic::{Body, Foreign, Traffic, TrafficConfig, VehicleType};
+use simworld_traffic::vehicle::VehicleType;
+use simworld_traffic::{Body, Foreign, Traffic, TrafficConfig};
 
 #[test]
 fn drivers_stop_behind_a_body_on_their_lane() {
