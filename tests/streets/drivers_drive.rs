@@ -20,8 +20,6 @@ use simworld_core::seam::{Executor, Goal, Plan, PlanStep, Planner, Progress};
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
 use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, VehicleClass};
-use simworld_tests::driving::{Outcome, Rush, Streets, Wheels};
-use simworld_tests::traffic::{each_case, is_whole};
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 
 const RED: [f32; 3] = [0.55, 0.03, 0.02];
@@ -474,48 +472,4 @@ fn a_motorcycle_is_ridden_to_the_kerb_by_who_got_on_it() {
     assert_eq!(ended, Progress::Done);
     let (at, bike) = (simulation.world().entity(rider).unwrap(), simulation.world().entity(bike).unwrap());
     assert!(at.attachment.is_none() && (bike.planar() - Point2::new(300.0, 246.5)).norm() < 25.0);
-}
-
-/// The trips of many minds in the rush hour of grown cities.
-fn rush(wheels: Wheels, cities: usize, minds: usize, trips: usize) {
-    let outcomes: Vec<(usize, Outcome)> = each_case(cities, |city| {
-        let rush =
-            Rush { city, segments: 60, density: 10.0, minds, trips, wheels, longest: 900.0 * trips as f64 };
-        (city, Streets::new(&rush).drive(&rush))
-    });
-    let sum = |of: fn(&Outcome) -> usize| outcomes.iter().map(|(_, outcome)| of(outcome)).sum::<usize>();
-    let driven: f64 = outcomes.iter().map(|(_, outcome)| outcome.driven).sum();
-    println!(
-        "{} of {} trips ended at their kerb, {:.1} km, {} lights and {} stop signs passed",
-        sum(|outcome| outcome.arrived),
-        sum(|outcome| outcome.sent),
-        driven / 1000.0,
-        sum(|outcome| outcome.signals),
-        sum(|outcome| outcome.stops)
-    );
-    let faults: Vec<String> = outcomes
-        .iter()
-        .flat_map(|(city, outcome)| {
-            outcome.faults.all().into_iter().map(move |fault| format!("city {city}: {fault}"))
-        })
-        .collect();
-    assert!(faults.is_empty(), "{faults:#?}");
-    let sent = sum(|outcome| outcome.sent);
-    assert!(
-        sent * 10 > outcomes.len() * minds * trips * 7,
-        "{sent} trips: too few vehicles for so many minds"
-    );
-    assert_eq!(sum(|outcome| outcome.arrived), sent);
-    assert!(sum(|outcome| outcome.signals) > outcomes.len(), "nobody met a light");
-    assert!(sum(|outcome| outcome.stops) > 0, "nobody met a stop sign");
-}
-
-#[test]
-fn trips_through_dense_traffic_end_at_the_kerb_and_harm_nobody() {
-    if is_whole() { rush(Wheels::Rolling, 100, 4, 2) } else { rush(Wheels::Rolling, 1, 4, 1) }
-}
-
-#[test]
-fn on_tyres_as_well() {
-    if is_whole() { rush(Wheels::Tyres, 32, 4, 2) } else { rush(Wheels::Tyres, 1, 2, 1) }
 }

@@ -82,6 +82,17 @@ pub(crate) fn written<'a>(text: &'a str, lexemes: &[Lexeme]) -> &'a str {
     start.zip(end).and_then(|(start, end)| text.get(start..end)).unwrap_or_default()
 }
 
+/// What is left of a sentence, word by word; whatever is no word and no number is a comma.
+#[cfg(test)]
+pub(crate) fn spelt(lexemes: &[Lexeme]) -> String {
+    let words = lexemes.iter().map(|lexeme| match &lexeme.token {
+        Token::Word(word) => word.clone(),
+        Token::Number(number) => number.to_string(),
+        _ => ",".to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
 fn symbol(symbol: char) -> Option<Token> {
     match symbol {
         '(' | '[' => Some(Token::Open),

@@ -271,7 +271,7 @@ impl View<'_> {
             Some(leader) => self.follow(to_line + leader.s - leader.length(), leader.v),
             None => self.after_way(lane.scene, way, to_line + tracks.length[track]),
         }
-        if let Some(obstacle) = first_obstacle(&lane.scene.sight, track as Track, 0.0) {
+        if let Some(obstacle) = first_obstacle(&lane.scene.sight, track as Track, 0.0, 0.0) {
             self.follow(to_line + obstacle.near, obstacle.v);
         }
     }
@@ -323,7 +323,7 @@ impl View<'_> {
         if !last.is_none() {
             self.follow(to_lane + last.rear, last.v);
         }
-        if let Some(obstacle) = first_obstacle(&scene.sight, lane, 0.0) {
+        if let Some(obstacle) = first_obstacle(&scene.sight, lane, 0.0, 0.0) {
             self.follow(to_lane + obstacle.near, obstacle.v);
         }
         self.slow_to(0.0, to_lane + scene.tracks.length[lane as usize]);
@@ -342,8 +342,7 @@ impl View<'_> {
 
     /// Stops behind foreign bodies on the track.
     fn beware(&mut self, sight: &Sight<'_>, track: Track, half_width: f64) {
-        let bars = |body: &&Obstacle| body.near >= self.s && body.bars(half_width);
-        if let Some(obstacle) = on_track(sight, track).iter().find(bars) {
+        if let Some(obstacle) = first_obstacle(sight, track, self.s, half_width) {
             // Nearer to what stands than to what may move.
             let closer = if obstacle.v > STANDING { 0.0 } else { self.idm.gap * 0.5 };
             self.follow(obstacle.near - self.s + closer, obstacle.v);
@@ -357,7 +356,7 @@ impl View<'_> {
     }
 }
 
-/// The first body on a track whose near side is beyond a station, and that no car would pass.
-fn first_obstacle<'a>(sight: &Sight<'a>, track: Track, beyond: f64) -> Option<&'a Obstacle> {
-    on_track(sight, track).iter().find(|obstacle| obstacle.near >= beyond && obstacle.bars(0.0))
+/// The first body on a track whose near side is beyond a station, and that a vehicle of half that width would not pass.
+fn first_obstacle<'a>(sight: &Sight<'a>, track: Track, beyond: f64, half_width: f64) -> Option<&'a Obstacle> {
+    on_track(sight, track).iter().find(|obstacle| obstacle.near >= beyond && obstacle.bars(half_width))
 }

@@ -85,22 +85,25 @@ pub(super) fn look(scene: &dyn Scene, own: &Own<'_>, near: f64, far: f64) -> Vec
 /// Whether a vehicle would touch somebody or something that it does not touch yet, or come nearer to its sides than that room, m,
 /// if it went so far ahead, m, negative backwards, with its wheels at an angle, radians, positive to the left.
 pub(super) fn would_touch(own: &Own<'_>, around: &[Seen], (ahead, steer): (f64, f64), beside: f64) -> bool {
-    let grown = |mut solid: Obb, by: f64| {
-        solid.half_extents += Vector3::new(by, by, 0.0);
-        solid
-    };
     let reach = own.half_length + ahead.abs() + 3.0;
     let moved = [0.5, 1.0].map(|share| rolled(own, ahead * share, steer));
     let mut near = around.iter().filter(|other| (other.at - own.at).norm() < reach + other.half_length);
     near.any(|other| {
         let comes = |by: f64| {
-            let overlaps = |solid: &Obb| grown(*solid, by).footprints_overlap(&other.solid);
+            let overlaps = |solid: &Obb| meets(solid, &other.solid, by);
             !overlaps(&own.solid) && moved.iter().any(overlaps)
         };
         // Who goes straight on comes no nearer to what is beside or behind.
         let towards = steer != 0.0 || (other.at - own.at).dot(&own.ahead) * ahead > 0.0;
         towards && (comes(beside) || comes(0.0))
     })
+}
+
+/// Whether a solid comes so near to another, seen from above, m.
+pub(super) fn meets(one: &Obb, other: &Obb, beside: f64) -> bool {
+    let mut grown = *one;
+    grown.half_extents += Vector3::new(beside, beside, 0.0);
+    grown.footprints_overlap(other)
 }
 
 /// The solid of a vehicle that has rolled so far, m, with its front wheels at an angle, radians: the rear axle goes round a circle.

@@ -7,7 +7,7 @@ use simworld_core::action::Action;
 use simworld_core::geometry::{Obb, Vector2, Vector3};
 
 use super::Driving;
-use super::around::{Seen, rolled};
+use super::around::{Seen, meets, rolled};
 use super::watch::Own;
 
 /// Braking that the last look counts on, m/s², and the time until it bites, s.
@@ -27,18 +27,18 @@ impl Driving {
     /// Brakes in place of the pedal that was chosen if the way with these wheels is not free for as far as one needs to stand.
     pub(super) fn last_look(&mut self, own: &Own<'_>, around: &[Seen], actions: &mut [Action; 2]) {
         let Action::Steer { angle } = actions[1] else { return };
-        let speed = own.speed.max(0.0);
-        let wanted = speed * speed / (2.0 * BRAKES) + speed * BITES + ROOM;
-        self.is_held = rolls_into(own, around, angle, wanted);
+        self.is_held = rolls_into(own, around, angle);
         if self.is_held {
             actions[0] = Action::Brake { level: 1.0 };
         }
     }
 }
 
-/// Whether one touches anybody or anything that one does not touch yet while one rolls so far, m, with the front wheels at an angle,
-/// radians. What comes from behind keeps off by itself, and what is left behind is not met.
-fn rolls_into(own: &Own<'_>, around: &[Seen], angle: f64, distance: f64) -> bool {
+/// Whether one touches anybody or anything that one does not touch yet before one stands, with the front wheels at an angle, radians.
+/// What comes from behind keeps off by itself, and what is left behind is not met.
+fn rolls_into(own: &Own<'_>, around: &[Seen], angle: f64) -> bool {
+    let speed = own.speed.max(0.0);
+    let distance = speed * speed / (2.0 * BRAKES) + speed * BITES + ROOM;
     let reach = own.half_length + distance + 3.0;
     let (count, pace) = ((distance / PLACES).ceil().max(1.0), own.speed.max(CREEPS));
     around.iter().any(|other| {
@@ -61,44 +61,30 @@ fn moved(solid: &Obb, by: Vector2) -> Obb {
     solid
 }
 
-/// Whether two solids come so near to one another, seen from above, m.
-fn meets(one: &Obb, other: &Obb, beside: f64) -> bool {
-    let mut grown = *one;
-    grown.half_extents += Vector3::new(beside, beside, 0.0);
-    grown.footprints_overlap(other)
-}
-
 #[cfg(test)]
 mod tests {
-    use simworld_core::geometry::{Point3, Pose, Twist, pose_facing};
-    use simworld_core::id::EntityId;
+    use simworld_core::geometry::{Point3, Twist, pose_facing};
     use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 
     use super::super::around::look;
     use super::*;
 
-    /// A car in the origin that looks east, at a speed, m/s, and something else.
-    fn with(speed: f64, (kind, other, velocity): (EntityKind, Pose, Vector2)) -> (World, [EntityId; 2]) {
+    /// Whether a car in the origin that looks east, at a speed, m/s, is held by a lamp there that moves.
+    fn is_held(speed: f64, angle: f64, (x, y): (f64, f64), velocity: Vector2) -> bool {
         let mut world = World::new();
-        let mut put = |kind, pose, shape, velocity: Vector2| {
+        let mut put = |kind, (x, y), shape, velocity: Vector2| {
+            let pose = pose_facing(Point3::new(x, y, 0.0), 0.0);
             let id = world.spawn(EntityDesc::new(kind, pose, shape)).expect("a sound entity");
             let twist = Twist { linear: Vector3::new(velocity.x, velocity.y, 0.0), ..Twist::ZERO };
             world.set_motion(id, pose, twist).expect("it is there");
             id
         };
-        let car =
-            put(EntityKind::Car, Pose::identity(), Shape::cuboid(4.5, 1.8, 1.5), Vector2::new(speed, 0.0));
-        let post = put(kind, other, Shape::cuboid(0.3, 0.3, 2.0), velocity);
-        (world, [car, post])
-    }
-
-    fn is_held(speed: f64, angle: f64, (x, y): (f64, f64), velocity: Vector2) -> bool {
-        let pose = pose_facing(Point3::new(x, y, 0.0), 0.0);
-        let (world, [car, _]) = with(speed, (EntityKind::StreetLamp, pose, velocity));
+        let sedan = Shape::cuboid(4.5, 1.8, 1.5);
+        let car = put(EntityKind::Car, (0.0, 0.0), sedan, Vector2::new(speed, 0.0));
+        put(EntityKind::StreetLamp, (x, y), Shape::cuboid(0.3, 0.3, 2.0), velocity);
         let (car, ids) = (world.entity(car).expect("it is there"), [car]);
         let own = Own::new(&car, &ids);
-        let wanted = speed * speed / (2.0 * BRAKES) + speed * BITES + ROOM;
-        rolls_into(&own, &look(&world, &own, 50.0, 50.0), angle, wanted)
+        rolls_into(&own, &look(&world, &own, 50.0, 50.0), angle)
     }
 
     #[test]

@@ -22,7 +22,7 @@ const TO_KERB: f64 = 0.4;
 const TO_OTHERS: f64 = 0.6;
 const BESIDE: f64 = 0.2;
 /// Within so much of the way back one drives on as ever, radians; the cosine of 25°.
-const TURNED: f64 = 0.906;
+pub(super) const TURNED: f64 = 0.906;
 /// One backs no farther than this at a time, m.
 const MOST_BACK: f64 = 6.0;
 /// So long does nobody take to turn, s: one begins if nobody comes before.

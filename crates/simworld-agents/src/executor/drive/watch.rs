@@ -11,6 +11,7 @@ use super::change::Outlook;
 use super::junction::Wait;
 use super::plan::Wish;
 use super::route::Lanes;
+use super::turn_round::TURNED;
 use super::{CannotArrive, Driving, MISSED, NEVER, NO_GAP};
 
 /// Braking that passengers find comfortable, m/s² (ISO 15622 allows adaptive cruise control up to 3.5).
@@ -230,11 +231,10 @@ impl Driving {
 
     /// Slowly while one does not look along the path yet: one needs more room than it has.
     fn askew(&self, own: &Own<'_>) -> f64 {
-        /// The cosine of 25°, and m/s.
-        const ALONG: f64 = 0.906;
+        /// m/s.
         const SLOWLY: f64 = 2.0;
         let along = direction(polyline::at(&self.path, self.station).1);
-        if own.ahead.dot(&along) < ALONG { SLOWLY } else { f64::INFINITY }
+        if own.ahead.dot(&along) < TURNED { SLOWLY } else { f64::INFINITY }
     }
 
     /// By who and what is on the path: the speed, and the first of them that forces one to slow down.

@@ -75,17 +75,13 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::lex;
+    use super::super::super::lexer::{lex, spelt};
     use super::*;
 
     fn plain(said: &str) -> String {
         let mut lexemes = lex(said);
         in_plain_words(&mut lexemes);
-        let words = lexemes.iter().map(|lexeme| match &lexeme.token {
-            Token::Word(word) => word.clone(),
-            _ => ",".to_owned(),
-        });
-        words.collect::<Vec<_>>().join(" ")
+        spelt(&lexemes)
     }
 
     #[test]
