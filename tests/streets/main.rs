@@ -3,6 +3,7 @@
 
 mod cities_go_through_sumo;
 mod drivers_drive;
+mod town;
 mod traffic_is_safe;
 mod traffic_keeps_flowing;
 mod trips_end_at_the_kerb;

@@ -6,7 +6,7 @@ use simworld_core::net::{Aspect, RoadNetwork, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
 use super::Driving;
-use super::around::{STANDING, Seen, would_touch};
+use super::around::{STANDING, Seen, meets, would_touch};
 use super::plan::{Wish, smooth};
 use super::turn_round::Turning;
 use super::watch::{BRAKING, Obstacle, Own};
@@ -18,8 +18,10 @@ const BESIDE: f64 = 0.7;
 const MOST_ASIDE: f64 = 4.5;
 /// Length over which one goes out to the left and back again, m.
 const RAMP: f64 = 8.0;
-/// Who needs no more than this aside keeps to its lane, m, and who pulls out and needs no more than this to the left comes into it; the
-/// room to the side then, m, the length over which one goes there and back, m, and how long one looks at it first, s.
+/// Who reaches no farther aside than this keeps to its lane, m, and anybody who needs no more than that aside; who pulls out and needs no
+/// more than this to the left comes into it; the room to the side then, m, the length over which one goes there and back, m, and how
+/// long one looks at it first, s.
+const IN_LANE: f64 = 2.1;
 const DODGE: f64 = 1.2;
 const PULLS_OUT: f64 = 2.5;
 const DODGE_BESIDE: f64 = 0.5;
@@ -30,6 +32,8 @@ const PASSES_AT: f64 = 4.0;
 const SPARE: f64 = 2.0;
 /// How far one backs to have room to pull out, m.
 const BACK: f64 = 5.0;
+/// Who is so near beside one does not go on past one, m.
+const HEMS: f64 = 0.4;
 /// Who stands so near to a line, or behind another, waits himself, m.
 const AT_LINE: f64 = 25.0;
 const BEHIND: f64 = 8.0;
@@ -45,8 +49,9 @@ impl Driving {
         let room = own.half_width + DODGE_BESIDE;
         let (left, right) = ((obstacle.left + room).max(0.0), (obstacle.right - room).min(0.0));
         let aside = if left <= -right { left } else { right };
-        let farthest = if self.pulls_out() { PULLS_OUT } else { DODGE };
-        Some(aside).filter(|_| obstacle.stands && (-DODGE..=farthest).contains(&aside))
+        let dodge = DODGE.max(IN_LANE - own.half_width);
+        let farthest = if self.pulls_out() { PULLS_OUT } else { dodge };
+        Some(aside).filter(|_| obstacle.stands && (-dodge..=farthest).contains(&aside))
     }
 
     /// Whether what stands ahead waits for a light.
@@ -102,8 +107,9 @@ impl Driving {
             self.bend((begin.max(self.station - BACK), end), aside, ramp);
         } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
             self.drive_round(scene, network, vehicle, own, obstacle);
-        } else if self.lines.first().is_some_and(|line| line.is_passed) {
-            // Two who stand nose to nose in a junction both wait for the other to go.
+        } else if self.lines.first().is_some_and(|line| line.is_passed) || is_hemmed_in(own, around) {
+            // Two who stand nose to nose in a junction both wait for the other to go, and so do one who has swung out and who stands
+            // beside it.
             self.back_off(own, around);
         }
     }
@@ -192,6 +198,14 @@ impl Driving {
             station < end && station + other.half_length + braking > begin
         }
     }
+}
+
+/// Whether a vehicle stands beside one, or before one's corner, and has no room to go on.
+fn is_hemmed_in(own: &Own<'_>, around: &[Seen]) -> bool {
+    around.iter().any(|other| {
+        let is_behind = (other.at - own.at).dot(&own.ahead) < -own.half_length - other.half_length * 0.5;
+        other.kind.is_vehicle() && other.stands() && !is_behind && meets(&own.solid, &other.solid, HEMS)
+    })
 }
 
 fn left_of(heading: f64) -> Vector2 {
