@@ -39,7 +39,7 @@ fn rush(wheels: Wheels, cities: usize, minds: usize, trips: usize) {
 
 #[test]
 fn trips_through_dense_traffic_end_at_the_kerb_and_harm_nobody() {
-    if is_whole() { rush(Wheels::Rolling, 100, 4, 2) } else { rush(Wheels::Rolling, 1, 4, 1) }
+    if is_whole() { rush(Wheels::Rolling, 200, 4, 2) } else { rush(Wheels::Rolling, 1, 4, 1) }
 }
 
 #[test]

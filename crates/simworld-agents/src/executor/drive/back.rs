@@ -60,7 +60,9 @@ impl Driving {
         const BACKWARDS: f64 = 0.3;
         self.backing -= (-own.speed * dt).max(0.01);
         let lane = scene.roads().and_then(|network| nearest_lane(network, own.at, Some(heading(&own.ahead))));
-        let at_begin = lane.is_some_and(|on| on.distance < ASTRAY && on.station < own.half_length + AT_BEGIN);
+        // Who is in the junction already is before the begin of every lane.
+        let near_begin = f64::EPSILON..own.half_length + AT_BEGIN;
+        let at_begin = lane.is_some_and(|on| on.distance < ASTRAY && near_begin.contains(&on.station));
         if self.backing <= 0.0 || at_begin || would_touch(own, around, (-0.8, 0.0), 0.2) {
             self.backing = 0.0;
             self.begin_here(own);

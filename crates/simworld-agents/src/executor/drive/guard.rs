@@ -27,7 +27,9 @@ impl Driving {
     /// Brakes in place of the pedal that was chosen if the way with these wheels is not free for as far as one needs to stand.
     pub(super) fn last_look(&mut self, own: &Own<'_>, around: &[Seen], actions: &mut [Action; 2]) {
         let Action::Steer { angle } = actions[1] else { return };
-        self.is_held = rolls_into(own, around, angle);
+        // Wheels take their time to turn: until then one goes as they stand.
+        self.is_held =
+            rolls_into(own, around, angle) || own.wheels().is_some_and(|now| rolls_into(own, around, now));
         if self.is_held {
             actions[0] = Action::Brake { level: 1.0 };
         }

@@ -49,6 +49,10 @@ const PASSED: f64 = 5.0;
 /// So near to the end of the path, and slower than `STANDING`, one has arrived, m and m/s.
 const ARRIVED: f64 = 1.2;
 const STANDING: f64 = 0.2;
+/// Who is kept from the last piece of its way, no longer than this, by somebody who stands there, has arrived too, m, when it has stood for
+/// so long, s.
+const NEARLY: f64 = 3.0;
+const LOOKS_ON: f64 = 1.0;
 /// Farther beside the path than this one looks for another, m.
 const ASTRAY: f64 = 8.0;
 /// Coming on by less than this is no progress, m.
@@ -176,6 +180,10 @@ impl RuleExecutor {
             return Ok(Arrival::There);
         }
         let allowed = way.allowed(scene, vehicle, own, &around, speed, dt)?;
+        let is_barred = way.is_held || allowed.obstacle.is_some_and(|obstacle| obstacle.stands);
+        if left <= NEARLY && own.speed.abs() < STANDING && is_barred && way.idle > LOOKS_ON {
+            return Ok(Arrival::There);
+        }
         self.mind_progress(scene, vehicle, own, way, (&allowed, &around))?;
         let window = way.window();
         let mut actions = way.driver.drive(vehicle.pose, own.speed, &window, allowed.speed, dt);
@@ -203,7 +211,7 @@ impl RuleExecutor {
         }
         let obstacle = allowed.obstacle;
         let patience = match obstacle {
-            Some(other) if way.dodged(own, &other).is_some() => pass::DODGES,
+            Some(other) if way.dodged(own, &other, around).is_some() => pass::DODGES,
             Some(other) if other.is_mobile && way.is_queue(&other, around) => QUEUE,
             Some(other) if other.is_mobile => STANDS,
             _ => self.config.patience,

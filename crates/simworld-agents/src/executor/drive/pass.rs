@@ -24,6 +24,8 @@ const RAMP: f64 = 8.0;
 const IN_LANE: f64 = 2.1;
 const DODGE: f64 = 1.2;
 const PULLS_OUT: f64 = 2.5;
+/// So far to the right one goes past who has come to stand nose to nose with one, m: a little over the edge of the lane.
+const MAKES_WAY: f64 = 1.7;
 const DODGE_BESIDE: f64 = 0.5;
 const DODGE_RAMP: f64 = 5.0;
 pub(super) const DODGES: f64 = 1.5;
@@ -45,13 +47,14 @@ const AT_LIGHT: f64 = 80.0;
 impl Driving {
     /// How far aside one would go past what stands at a side of one's lane, as who is parked does, m to the left, negative to the
     /// right; `None` where that is no place in one's lane, nor, while one pulls out, towards it.
-    pub(super) fn dodged(&self, own: &Own<'_>, obstacle: &Obstacle) -> Option<f64> {
+    pub(super) fn dodged(&self, own: &Own<'_>, obstacle: &Obstacle, around: &[Seen]) -> Option<f64> {
         let room = own.half_width + DODGE_BESIDE;
         let (left, right) = ((obstacle.left + room).max(0.0), (obstacle.right - room).min(0.0));
         let aside = if left <= -right { left } else { right };
         let dodge = DODGE.max(IN_LANE - own.half_width);
         let farthest = if self.pulls_out() { PULLS_OUT } else { dodge };
-        Some(aside).filter(|_| obstacle.stands && (-dodge..=farthest).contains(&aside))
+        let nearest = if self.comes_towards(obstacle, around) { MAKES_WAY } else { dodge };
+        Some(aside).filter(|_| obstacle.stands && (-nearest..=farthest).contains(&aside))
     }
 
     /// Whether what stands ahead waits for a light.
@@ -67,6 +70,9 @@ impl Driving {
 
     /// Whether what stands ahead waits for a junction, or behind somebody who does.
     pub(super) fn is_queue(&self, obstacle: &Obstacle, around: &[Seen]) -> bool {
+        if self.comes_towards(obstacle, around) {
+            return false;
+        }
         let line = self.lines.iter().find(|line| line.station > obstacle.begin);
         let beyond = polyline::slice(&self.path, obstacle.end + 0.5, obstacle.end + BEHIND);
         let others = around.iter().filter(|other| other.id != obstacle.id && other.kind.is_vehicle());
@@ -75,6 +81,14 @@ impl Driving {
                 let near = polyline::closest(&beyond, &other.at);
                 near.is_some_and(|near| near.distance < other.half_length.max(1.5))
             })
+    }
+
+    /// Whether what stands ahead looks against the way that one goes.
+    fn comes_towards(&self, obstacle: &Obstacle, around: &[Seen]) -> bool {
+        const AGAINST: f64 = -0.5;
+        let way = direction(polyline::at(&self.path, obstacle.begin).1);
+        let other = around.iter().find(|other| other.id == obstacle.id);
+        other.is_some_and(|other| other.kind.is_vehicle() && other.ahead.dot(&way) < AGAINST)
     }
 
     /// Tries something: bends the path round it, backing for room before, or takes other roads; if nothing helps, waits on.
@@ -86,7 +100,7 @@ impl Driving {
         around: &[Seen],
         obstacle: &Obstacle,
     ) {
-        let dodged = self.dodged(own, obstacle);
+        let dodged = self.dodged(own, obstacle, around);
         let dodges = dodged.is_some();
         let queue = !dodges && self.is_queue(obstacle, around);
         if !obstacle.stands || (queue && !self.tries.is_multiple_of(PATIENCE)) {
@@ -107,9 +121,11 @@ impl Driving {
             self.bend((begin.max(self.station - BACK), end), aside, ramp);
         } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
             self.drive_round(scene, network, vehicle, own, obstacle);
-        } else if self.lines.first().is_some_and(|line| line.is_passed) || is_hemmed_in(own, around) {
-            // Two who stand nose to nose in a junction both wait for the other to go, and so do one who has swung out and who stands
-            // beside it.
+        } else if self.lines.first().is_some_and(|line| line.is_passed)
+            || self.comes_towards(obstacle, around)
+            || is_hemmed_in(own, around)
+        {
+            // Two who stand nose to nose both wait for the other to go, and so do one who has swung out and who stands beside it.
             self.back_off(own, around);
         }
     }

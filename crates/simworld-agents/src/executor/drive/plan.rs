@@ -195,10 +195,10 @@ fn by_road(
     (from, to): (&OnLane, &OnLane),
     wish: &Wish,
 ) -> Option<(Way, Berth)> {
-    // What one has passed is not gone back to.
+    // What one has passed is not gone back to, and nobody begins to pull in within the turn before a lane.
     let pull = PULL_IN * longer_than_a_car(own.half_length * 2.0);
-    let first = if to.lane == from.lane { from.station + pull } else { 0.0 };
-    let first = if to.station > from.station { first } else { 0.0 };
+    let is_ahead = to.lane == from.lane && to.station > from.station;
+    let first = if is_ahead { from.station + pull } else { pull };
     let berth = kerb::berth(scene, network, own.ids, (to, first), own.size());
     // From beside the lane one joins it some way ahead.
     let join = match from.distance {
@@ -228,7 +228,7 @@ fn by_road(
         };
         found.changes.insert(0, mirror);
     }
-    // Behind a junction there may be less room: nobody begins to pull in within the turn.
+    // On a short lane there may be less room.
     let has_room = to.lane == from.lane || berth.on.station >= pull;
     pull_in(&mut found.path, berth.aside, if has_room { pull } else { PULL_IN });
     Some((found, berth))

@@ -1,5 +1,6 @@
 //! How fast the road ahead allows to go: bends, lines, changes of lanes, people and things on the path.
 
+use simworld_core::control::Driver;
 use simworld_core::geometry::{Obb, Point2, Vector2, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
@@ -41,6 +42,8 @@ pub(super) struct Own<'a> {
     pub(super) at: Point2,
     pub(super) ahead: Vector2,
     pub(super) speed: f64,
+    /// How fast it turns, to the left, radians/s.
+    pub(super) turns: f64,
     pub(super) half_length: f64,
     pub(super) half_width: f64,
     pub(super) solid: Obb,
@@ -55,10 +58,19 @@ impl<'a> Own<'a> {
             at: vehicle.planar(),
             ahead,
             speed: vehicle.twist.linear.xy().dot(&ahead),
+            turns: vehicle.twist.angular.z,
             half_length: size.x * 0.5,
             half_width: size.y * 0.5,
             solid: vehicle.obb(),
         }
+    }
+
+    /// At what angle its front wheels stand, by how it turns, radians to the left; `None` while it hardly moves.
+    pub(super) fn wheels(&self) -> Option<f64> {
+        /// m/s.
+        const ROLLS: f64 = 0.2;
+        let wheelbase = Driver::of_length(self.half_length * 2.0).wheelbase;
+        (self.speed > ROLLS).then(|| atan2(self.turns * wheelbase, self.speed))
     }
 
     /// Length and width, m.
