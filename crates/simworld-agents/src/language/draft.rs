@@ -427,7 +427,12 @@ impl<'a> Draft<'a> {
         if way.norm() > within {
             self.view.heading = heading(&way);
         }
-        self.push(PlanStep::Navigate { to, within, speed });
+        let step = PlanStep::Navigate { to, within, speed };
+        // "Find the smallest house and walk over to it": one is there by then.
+        let is_there = matches!(to, Goal::Entity(_)) && self.last_step() == Some(&step);
+        if !is_there {
+            self.push(step);
+        }
         Ok(())
     }
 

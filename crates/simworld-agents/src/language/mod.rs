@@ -86,6 +86,7 @@ mod topics;
 mod turnings;
 mod unknown;
 mod verbs;
+mod via;
 mod wants;
 mod ways;
 mod weather;

@@ -225,6 +225,8 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
             if NO_SLIP.contains(&candidate) {
                 continue;
             }
+            // What sounds so is nearer than what is written so, but not if it means nothing here: a "whiet" car is white, and not of wheat.
+            let distance = if means == Some(false) { distance.max(1) } else { distance };
             let rank = (distance, means == Some(false), slip);
             if rank < least {
                 least = rank;

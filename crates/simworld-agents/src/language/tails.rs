@@ -50,7 +50,7 @@ impl Parser<'_> {
             self.skip_fillers();
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
-            let goes_on = comma && self.tail_follows();
+            let goes_on = comma && (self.tail_follows() || self.another_place_follows());
             if self.done_again(clauses, whole, group)
                 || self.done_to_another(clauses, group)
                 || self.each_time(clauses)
@@ -76,10 +76,8 @@ impl Parser<'_> {
             "until", "till", "unless", "but if", "but first", "but before that", "but only if", "only if",
             "if and only if", "but not if", "but not before", "or if", "or in case", "provided",
             "provided that", "for", "its for", "it is for", "theyre for", "they are for", "thats for", "that is for", "with", "run", "sprint", "at", "but slowly", "but quickly", "but fast", "and quickly", "and slowly", "but at", "nice and slowly", "but run", "and fast", "but only when", "only when", "forever", "for ever",
-            "for ever and ever", "but go via", "stopping at", "with a stop at", "but before you do", "but via",
-            "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
-            "in a hurry", "but only after", "stopping off at", "stopping by", "but go by way of",
-            "but stop off at", "but pass by", "pausing", "waiting", "but only once", "but not until",
+            "for ever and ever", "stopping at", "with a stop at", "but before you do", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
+            "in a hurry", "but only after", "stopping off at", "stopping by", "but stop off at", "but pass by", "pausing", "waiting", "but only once", "but not until",
             "at the double", "on the double", "and wait", "leaving", "and dont stop until", "and do not stop until",
             "and dont cease until", "and do not cease until", "and dont give up until", "dont stop until",
             "do not stop until", "never stopping until", "not stopping until",
@@ -351,19 +349,13 @@ impl Parser<'_> {
     /// "On the way to the museum", "before going home", "after half a minute", "but first wave".
     fn in_turn(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
         let last = clauses.len() - 1;
-        if self.stopped_over(clauses) {
+        if self.stopped_over(clauses) || self.by_another_place(clauses) {
             return Ok(true);
         }
         if self.eat_any(ON_THE_WAY) {
             let to = self.reference(0)?;
             clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
         } else if self.eat_any(&[
-            "but go via",
-            "but go by way of",
-            "but via",
-            "going via",
-            "going by way of",
-            "but by way of",
             "but pass by",
             "stopping at",
             "stopping off at",

@@ -5,7 +5,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, SELLS};
 use simworld_core::seam::{Goal, PlanError, PlanStep};
 
-use super::clause::{Grip, Manner, Pace, Reference, Target, Vehicle};
+use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Vehicle};
 use super::draft::{Draft, Load, Posture};
 use super::lexicon::{Category, class, is_animate};
 use super::relate::PART;
@@ -147,7 +147,8 @@ impl<'a> Draft<'a> {
         // What one has in hand is what "it" is about here, whatever was spoken of since.
         let in_hand = self.held.is_some() || self.carried.is_some();
         if let Some(what) = what.filter(|what| !(in_hand && what.target == Target::It)) {
-            let item = self.find(what, Purpose::Item)?;
+            let in_hand = self.what_is_in_hand(what);
+            let item = in_hand.map_or_else(|| self.find(what, Purpose::Item), Ok)?;
             let in_hand = self.held == Some(Load::Thing(item.id)) || self.carried == Some(item.id);
             if !in_hand && (manner == Manner::Deliver || at.is_some()) {
                 let there = self.there_now();
@@ -163,6 +164,22 @@ impl<'a> Draft<'a> {
             Some(at) => self.bring(at, manner),
             None => self.let_go(if manner == Manner::Deliver { Manner::PutDown } else { manner }),
         }
+    }
+
+    /// What one has in hand, if the words fit it and do not choose among others: who took the nearest package means that one by "the
+    /// package", also where another is nearer by then.
+    fn what_is_in_hand(&mut self, what: &Reference) -> Option<EntityRef<'a>> {
+        let held = match self.held {
+            Some(Load::Thing(id)) => Some(id),
+            _ => self.carried,
+        };
+        let item = held.and_then(|id| self.view.scene.entity(id))?;
+        let is_plain = what.choice == Choice::Open && what.relation.is_none() && !what.traits.other;
+        let is_meant = is_plain && self.view.fits(&item, what, Purpose::Any);
+        is_meant.then(|| {
+            self.mention(&item);
+            item
+        })
     }
 
     /// Goes with what is in hand, and gives it to whoever is there, or puts it down.

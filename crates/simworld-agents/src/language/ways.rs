@@ -326,17 +326,7 @@ impl Parser<'_> {
 
     /// What is said of the way after where it leads.
     pub(super) fn after_place(&mut self, go: Clause, pace: Pace) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&[
-            "via",
-            "by way of",
-            "passing by",
-            "passing through",
-            "going via",
-            "through",
-            "going through",
-            "and go via",
-            "by going via",
-        ]) {
+        if self.eat_via() || self.eat_any(&["passing by", "passing through", "through", "going through"]) {
             let over = |to| Clause::Go { to, side: None, pace, within: None };
             let mut ways = vec![over(self.reference(0)?)];
             while let Some(to) = self.another_on_the_way() {
@@ -344,6 +334,9 @@ impl Parser<'_> {
             }
             ways.push(go);
             return Ok(ways);
+        }
+        if let Some(first) = self.going_first() {
+            return Ok(vec![Clause::Go { to: first, side: None, pace, within: None }, go]);
         }
         if let Some(buy) = self.for_goods(&go) {
             return Ok(vec![buy]);

@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 16] = [
+const SETS: [&str; 18] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -50,6 +50,8 @@ const SETS: [&str; 16] = [
     "fourteenth",
     "fifteenth",
     "sixteenth",
+    "seventeenth",
+    "eighteenth",
 ];
 
 /// One thing that is said, and what it means.
