@@ -9,6 +9,8 @@ use simworld_core::seed::Seed;
 use simworld_traffic::crowd::{AnticipationVelocity, Crowd, Person, Walls, Wish};
 use simworld_traffic::validation::corridor::{Corridor, LENGTH, WIDTH, weidmann};
 
+use crate::at_once::at_once;
+
 const DT: f64 = 0.1;
 
 fn soak() -> bool {
@@ -34,13 +36,13 @@ fn nearest_two(people: &[Point2]) -> f64 {
 fn speed_falls_with_density_as_weidmann_says() {
     // Forty people are few: their own free speeds would show.
     let seeds = if soak() { 24 } else { 4 };
-    for density in [0.5, 1.0, 1.5, 2.0, 3.0, 4.0] {
+    at_once([0.5, 1.0, 1.5, 2.0, 3.0, 4.0], |density| {
         let speed = |seed| Corridor::new(density, false, seed).mean_speed(&AnticipationVelocity::default());
         let mean = (0..seeds).map(speed).sum::<f64>() / seeds as f64;
         println!("{density} per m²: {mean:.3} m/s, Weidmann {:.3}", weidmann(density));
         let off = (mean - weidmann(density)).abs();
         assert!(off < 0.1, "{mean} m/s at {density} per m² is {off} m/s off");
-    }
+    });
 }
 
 /// How many pass a door of a width a second and metre, from a room of 7 by 8 m full of people.

@@ -260,11 +260,11 @@ fn more_cars_than_road_wait_outside_and_are_told() {
             flows += 1;
         }
     }
-    for _ in 0..600 {
+    for _ in 0..300 {
         traffic.step(0.1);
     }
     let counters = traffic.counters();
-    let asked = f64::from(flows) * 5_000.0 / 60.0;
+    let asked = f64::from(flows) * 5_000.0 / 120.0;
     let known = traffic.outside() as f64 + counters.entered as f64;
     // Arrivals are random: four deviations of a Poisson number.
     assert!((known - asked).abs() < 4.0 * asked.sqrt(), "{known} of {asked}");

@@ -9,6 +9,8 @@ use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{Body, Leg, Route, Traffic, TrafficConfig};
 
+use crate::at_once::at_once;
+
 /// One step: nobody touches anybody, and nobody goes farther than its speed takes it.
 fn step(traffic: &mut Traffic, before: &mut Vec<Option<Point2>>, at: usize) {
     traffic.step(0.1);
@@ -92,21 +94,20 @@ fn a_full_grid_never_stops_for_good() {
     let network = Arc::new(RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap());
     let kilometres = network.lanes.iter().map(|lane| lane.length).sum::<f64>() / 1000.0;
     let soak = std::env::var_os("SIMWORLD_SOAK").is_some();
-    for seed in 0..if soak { 20 } else { 2 } {
-        for density in [44.0, 55.0] {
-            let vehicles = (density * kilometres) as u32;
-            let config = TrafficConfig { vehicles, pedestrians: 0, ..TrafficConfig::default() };
-            let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(seed)).unwrap();
-            assert_eq!(traffic.placed().vehicles, vehicles);
-            let (mut before, mut last) = (Vec::new(), 0);
-            for window in 0..4 {
-                for at in 0..if soak { 5000 } else { 2500 } {
-                    step(&mut traffic, &mut before, at);
-                }
-                let crossings = traffic.counters().crossings;
-                assert!(crossings > last + 200, "window {window}, {density}/km: {:?}", traffic.counters());
-                last = crossings;
+    let seeds = 0..if soak { 20 } else { 2 };
+    at_once(seeds.flat_map(|seed| [(seed, 44.0), (seed, 55.0)]), |(seed, density)| {
+        let vehicles = (density * kilometres) as u32;
+        let config = TrafficConfig { vehicles, pedestrians: 0, ..TrafficConfig::default() };
+        let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(seed)).unwrap();
+        assert_eq!(traffic.placed().vehicles, vehicles);
+        let (mut before, mut last) = (Vec::new(), 0);
+        for window in 0..4 {
+            for at in 0..if soak { 5000 } else { 2500 } {
+                step(&mut traffic, &mut before, at);
             }
+            let crossings = traffic.counters().crossings;
+            assert!(crossings > last + 200, "window {window}, {density}/km: {:?}", traffic.counters());
+            last = crossings;
         }
-    }
+    });
 }

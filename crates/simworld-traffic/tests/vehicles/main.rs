@@ -1,6 +1,8 @@
 //! Vehicles on their lanes: following, changing, stopping, parking.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
+#[path = "../shared/at_once.rs"]
+mod at_once;
 mod buses_keep_their_stops;
 mod busy_network_is_safe;
 mod car_following;

@@ -8,6 +8,8 @@ use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::{VehicleKind, VehicleType};
 use simworld_traffic::{Leg, Route, Router, Traffic, TrafficConfig, TrafficError, TripEnd};
 
+use crate::at_once::at_once;
+
 fn avenues(lanes: u8) -> Arc<RoadNetwork> {
     let mut plan = StreetPlan::grid(5, 5, 150.0);
     plan.sections = vec![CrossSection::two_way(lanes, lanes)];
@@ -78,21 +80,19 @@ fn on_way(traffic: &Traffic, id: Option<u32>) -> bool {
 
 #[test]
 fn with_a_siren_one_is_sooner_across_a_busy_town() {
-    let mut sums = [0.0; 3];
-    let mut reds = 0;
-    for (lanes, vehicles, seed) in [(2, 260, 1), (2, 260, 2), (3, 400, 3), (1, 110, 4), (1, 110, 5)] {
+    let towns = [(2, 260, 1), (2, 260, 2), (3, 400, 3), (1, 110, 4), (1, 110, 5)];
+    let across = at_once(towns, |(lanes, vehicles, seed)| {
         let (with, passed) = time_across(lanes, vehicles, VehicleKind::Emergency, true, seed);
         let (without, none) = time_across(lanes, vehicles, VehicleKind::Emergency, false, seed);
         let (car, _) = time_across(lanes, vehicles, VehicleKind::Car, false, seed);
         println!("{lanes} lanes: {with:.0} s with {passed} reds, {without:.0} s without, car {car:.0} s");
         assert_eq!(none, 0);
         assert!(with < car, "{lanes} lanes: {with} s with a siren, {car} s in a car");
-        reds += passed;
-        for (sum, time) in sums.iter_mut().zip([with, without, car]) {
-            *sum += time;
-        }
-    }
+        ([with, without, car], passed)
+    });
+    let reds: u64 = across.iter().map(|(_, passed)| passed).sum();
     assert!(reds > 3, "it passes red lights: {reds}");
+    let sums = [0, 1, 2].map(|kind| across.iter().map(|(times, _)| times[kind]).sum::<f64>());
     assert!(sums[0] < 0.75 * sums[1] && sums[0] < 0.75 * sums[2], "{sums:?}");
 }
 
