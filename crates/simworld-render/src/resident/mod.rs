@@ -24,6 +24,7 @@ use crate::classes::class_of;
 use crate::look::{Look, Looks, overhang};
 use crate::mesh::{Drawn, ModelId};
 use crate::occlusion::Block;
+use crate::sieve::Grain;
 use crate::sources::{Sources, model_of};
 use crate::threads;
 
@@ -112,6 +113,8 @@ impl Dressed {
 pub(crate) struct Residents {
     pub instances: Vec<Instance>,
     pub cards: Vec<Card>,
+    /// By number, the ball around its entity.
+    pub grains: Vec<Grain>,
     pub grid: Grid,
     /// Of these, those that nobody looks through.
     pub walls: Grid,
@@ -119,6 +122,10 @@ pub(crate) struct Residents {
     pub names: Arc<Vec<EntityId>>,
     /// Numbers whose instances changed since the device had them; some may come twice.
     pub changed: Vec<u32>,
+    /// Numbers whose cards or balls changed since a device that culls had them; some may come twice, and instances alone may have changed.
+    pub recarded: Vec<u32>,
+    /// Grows with every instance that comes or goes.
+    pub arrangement: u64,
     /// Grows whenever everything was dressed anew.
     pub epoch: u64,
     /// Grows with every change.
@@ -225,6 +232,9 @@ impl Residents {
         self.stamps.clear();
         self.version += 1;
         self.cards.clear();
+        self.grains.clear();
+        self.recarded.clear();
+        self.arrangement += 1;
         self.grid.clear();
         self.walls.clear();
         self.heads.clear();
@@ -308,7 +318,7 @@ impl Residents {
     fn fill(&mut self, slot: usize, there: &There, parts: &[(Part, Instance)]) {
         let mut last = NONE;
         let mut number = self.heads[slot];
-        let casts = casts(there.kind);
+        let (casts, grain) = (casts(there.kind), Grain::of(&there.ball));
         for (index, (part, instance)) in (0..).zip(parts) {
             if number == NONE {
                 number = self.take_number();
@@ -326,7 +336,8 @@ impl Residents {
             let card = &mut self.cards[number as usize];
             let before = card.slot_there().map(|_| card.mesh);
             let is_same = self.instances[number as usize] == instance
-                && card.mesh == part.mesh
+                && self.grains[number as usize] == grain
+                && (card.mesh, card.slot, card.part) == (part.mesh, slot as u32, index)
                 && (card.casts, card.details) == (casts, part.details);
             *card = Card {
                 mesh: part.mesh,
@@ -343,6 +354,7 @@ impl Residents {
             }
             if !is_same {
                 self.instances[number as usize] = instance;
+                self.grains[number as usize] = grain;
                 self.note(number);
                 self.resurfaced |= is_surface;
             }
@@ -369,6 +381,7 @@ impl Residents {
             self.grid.remove(number);
             self.walls.remove(number);
             self.note(number);
+            self.arrangement += 1;
             let card = &mut self.cards[number as usize];
             let before = card.slot_there().map(|_| card.mesh);
             card.slot = NONE;
@@ -422,9 +435,16 @@ impl Residents {
         self.version += 1;
         self.stamps[number as usize] = self.version;
         self.changed.push(number);
+        self.recarded.push(number);
+    }
+
+    /// The numbers of all instances, by slots and their parts.
+    pub(crate) fn ordered(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.heads.len() as u32).flat_map(|slot| self.numbers_of(slot))
     }
 
     fn take_number(&mut self) -> u32 {
+        self.arrangement += 1;
         if let Some(card) = self.cards.get_mut(self.free as usize) {
             let number = self.free;
             self.free = std::mem::replace(&mut card.next, NONE);
@@ -434,12 +454,20 @@ impl Residents {
         let card = Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, details: 0, next: NONE };
         self.cards.push(card);
         self.instances.push(bytemuck::Zeroable::zeroed());
+        self.grains.push(Grain::default());
         self.stamps.push(0);
         self.cards.len() as u32 - 1
     }
 }
 
 impl Card {
+    /// One that is drawn at every level of detail.
+    #[cfg(test)]
+    pub(crate) const fn of(mesh: Drawn) -> Self {
+        let details = crate::look::Detail::EVERY;
+        Self { mesh, slot: 0, part: 0, casts: true, mobile: false, details, next: NONE }
+    }
+
     /// The slot of who has this number now, if anybody does.
     pub(crate) const fn slot_there(&self) -> Option<u32> {
         if self.slot == NONE { None } else { Some(self.slot) }
