@@ -13,15 +13,19 @@ use crate::sieve::Sieve;
 use crate::{RenderConfig, RenderError};
 
 impl Works {
-    /// Whether the device finds what is drawn.
-    fn sifts(&self, config: &RenderConfig) -> bool {
-        let is_wanted = match config.culling {
+    /// Whether the device culls here, if the scene lets it.
+    pub(crate) fn culls_on_device(&self, culling: Culling) -> bool {
+        let is_wanted = match culling {
             Culling::Host => false,
             Culling::Device => true,
             Culling::Auto => self.gpu.info.device_type != wgpu::DeviceType::Cpu,
         };
-        is_wanted
-            && self.gpu.can_sift
+        is_wanted && self.gpu.can_sift
+    }
+
+    /// Whether the device finds what is drawn.
+    fn sifts(&self, config: &RenderConfig) -> bool {
+        self.culls_on_device(config.culling)
             && Sifter::reaches(&self.gpu, self.residents.instances.len())
             && self.residents.models.keys().all(|model| model.pose.is_none())
     }
