@@ -229,7 +229,9 @@ fn batches(sorted: &[Entry], picks: &mut Vec<u32>) -> Vec<Batch> {
         let position = picks.len() as u32;
         picks.push(*number);
         match batches.last_mut() {
-            Some(Batch { mesh: known, instances: Run::Listed(run) }) if known == mesh => run.end = position + 1,
+            Some(Batch { mesh: known, instances: Run::Listed(run) }) if known == mesh => {
+                run.end = position + 1;
+            }
             _ => batches.push(Batch { mesh: *mesh, instances: Run::Listed(position..position + 1) }),
         }
     }

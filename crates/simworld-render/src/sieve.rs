@@ -234,7 +234,10 @@ mod tests {
     fn twelve_bits_are_no_less() {
         for number in [1e-20, 0.1, 1.0, 3.3, 4095.0, 4097.0, 1e9] {
             let up = rounded_up(number);
-            assert!(f64::from(up) >= number * (1.0 - 1e-7) && f64::from(up) <= number * 1.0005, "{number} {up}");
+            assert!(
+                f64::from(up) >= number * (1.0 - 1e-7) && f64::from(up) <= number * 1.0005,
+                "{number} {up}"
+            );
             assert_eq!(up.to_bits() & 0xfff, 0);
         }
     }

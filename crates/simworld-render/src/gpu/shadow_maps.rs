@@ -173,7 +173,16 @@ impl ShadowMaps {
             let whole = Layer::new(gpu, self.side);
             let group = bind(gpu, &self.layout, &self.sampler, &whole);
             let drawn = [NOT_DRAWN.to_vec(), Casters::new()];
-            self.held.push(Held { key: *key, version: 0, redrawn: 0, drawn, whole, still: None, group, used: 0 });
+            self.held.push(Held {
+                key: *key,
+                version: 0,
+                redrawn: 0,
+                drawn,
+                whole,
+                still: None,
+                group,
+                used: 0,
+            });
             return self.held.len() - 1;
         }
         let oldest = (0..self.held.len()).min_by_key(|index| self.held[*index].used).unwrap_or(0);

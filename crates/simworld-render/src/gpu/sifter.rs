@@ -16,8 +16,8 @@ use crate::sieve::{BUCKETS, Sieve};
 const SIFT: &str = include_str!("../shaders/sift.wgsl");
 /// Instances that a group looks at, as in sift.wgsl.
 const WIDE: u32 = 256;
-/// Storage buffers that it binds, as many as the web offers.
-const BUFFERS: u32 = 8;
+/// Storage buffers that it binds, as many as rays do.
+const BUFFERS: u32 = 9;
 /// Bytes of the arguments of a draw.
 const DRAW: u64 = 20;
 /// An instance is so many vectors of four in sift.wgsl.
@@ -40,13 +40,22 @@ pub(super) fn is_offered(adapter: &wgpu::Adapter, limits: &wgpu::Limits) -> bool
 /// A step of sift.wgsl, and which eight bits of the keys it looks at.
 type Step = (&'static str, u32);
 
+/// How many groups a step has.
+#[derive(Clone, Copy)]
+enum Groups {
+    Exactly(u32),
+    /// As those that come through are worth, which the device knows.
+    Found,
+}
+
 /// The buffers and pipelines of sift.wgsl, and what they know of the scene. They hold one view at a time: a view is sifted, then drawn.
 pub(crate) struct Sifter {
     deck: Deck,
     arrangement: u64,
     module: wgpu::ShaderModule,
     layout: wgpu::BindGroupLayout,
-    pipeline_layout: wgpu::PipelineLayout,
+    /// Of the steps, and of those that say how many groups others have.
+    pipeline_layouts: [wgpu::PipelineLayout; 2],
     pipelines: BTreeMap<Step, wgpu::ComputePipeline>,
     sieves: wgpu::Buffer,
     /// Bytes from one sieve to the next.
@@ -59,6 +68,9 @@ pub(crate) struct Sifter {
     /// The instances as they are drawn.
     pub drawn: wgpu::Buffer,
     draws: wgpu::Buffer,
+    /// How many groups look at those that come through, and what that is bound by.
+    groups: wgpu::Buffer,
+    scan_group: wgpu::BindGroup,
     group: Option<wgpu::BindGroup>,
     /// Instances and kinds.
     count: u32,
@@ -72,11 +84,21 @@ impl Sifter {
             label: Some("sift"),
             source: wgpu::ShaderSource::Wgsl(SIFT.into()),
         });
-        let layout = layout(device);
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        let (layout, scan_layout) = layouts(device);
+        let pipeline_layout = |layouts: &[Option<&wgpu::BindGroupLayout>]| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("sift"),
+                bind_group_layouts: layouts,
+                immediate_size: 0,
+            })
+        };
+        let pipeline_layouts =
+            [pipeline_layout(&[Some(&layout)]), pipeline_layout(&[Some(&layout), Some(&scan_layout)])];
+        let groups = buffer(gpu, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT, 16);
+        let scan_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("sift"),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
+            layout: &scan_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: groups.as_entire_binding() }],
         });
         let alignment = u64::from(device.limits().min_uniform_buffer_offset_alignment);
         let stride = (size_of::<Sieve>() as u64).next_multiple_of(alignment);
@@ -87,7 +109,7 @@ impl Sifter {
             arrangement: u64::MAX,
             module,
             layout,
-            pipeline_layout,
+            pipeline_layouts,
             pipelines: BTreeMap::new(),
             sieves: buffer(gpu, wgpu::BufferUsages::UNIFORM, stride),
             stride,
@@ -98,6 +120,8 @@ impl Sifter {
             sums: small(storage),
             drawn: small(storage | wgpu::BufferUsages::VERTEX),
             draws: small(storage | wgpu::BufferUsages::INDIRECT),
+            groups,
+            scan_group,
             group: None,
             count: 0,
             kind_count: 0,
@@ -169,7 +193,8 @@ impl Sifter {
 
     fn bind(&self, gpu: &Gpu, scenery: &Scenery) -> wgpu::BindGroup {
         let size = |bytes: u64| std::num::NonZeroU64::new(bytes);
-        let part = |buffer, size| wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
+        let part =
+            |buffer, size| wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size });
         let kinds = size(u64::from(self.kind_count) * size_of::<Kind>() as u64);
         let resources = [
             part(&self.sieves, size(size_of::<Sieve>() as u64)),
@@ -192,16 +217,17 @@ impl Sifter {
     }
 
     /// The steps of a view, in their order, and how many groups each has.
-    fn steps(&self) -> Vec<(Step, u32)> {
-        let groups = self.count.div_ceil(WIDE);
+    fn steps(&self) -> Vec<(Step, Groups)> {
+        let of = |count: u32| Groups::Exactly(count.div_ceil(WIDE));
+        let (all, one, found) = (of(self.count), Groups::Exactly(1), Groups::Found);
         // An even number, so that what is sorted ends where it began.
         let digits = if self.kind_count * BUCKETS <= 1 << 16 { 2 } else { 4 };
-        let mut steps = vec![(("sift", 0), groups), (("scan", 0), 1), (("gather", 0), groups)];
+        let mut steps = vec![(("sift", 0), all), (("scan", 0), one), (("gather", 0), all)];
         for digit in 0..digits {
             // Sums of digits are the same whichever these are.
-            steps.extend([(("tally", digit), groups), (("scan", 1), 1), (("deal", digit), groups)]);
+            steps.extend([(("tally", digit), found), (("scan", 1), one), (("deal", digit), found)]);
         }
-        steps.extend([(("copy", 0), groups), (("tell", 0), self.kind_count.div_ceil(WIDE))]);
+        steps.extend([(("copy", 0), found), (("tell", 0), of(self.kind_count))]);
         steps
     }
 
@@ -214,14 +240,16 @@ impl Sifter {
                     "tally" | "deal" => vec![("DIGIT", f64::from(digit))],
                     _ => Vec::new(),
                 };
+                let layout = &self.pipeline_layouts[usize::from(entry == "scan")];
                 gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(entry),
-                    layout: Some(&self.pipeline_layout),
+                    layout: Some(layout),
                     module: &self.module,
                     entry_point: Some(entry),
                     compilation_options: wgpu::PipelineCompilationOptions {
                         constants: &constants,
-                        ..Default::default()
+                        // Each step does that where it needs it.
+                        zero_initialize_workgroup_memory: false,
                     },
                     cache: None,
                 })
@@ -233,11 +261,15 @@ impl Sifter {
     pub(crate) fn sift(&self, encoder: &mut wgpu::CommandEncoder, sieve: usize) {
         let mut pass = encoder
             .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("sift"), timestamp_writes: None });
+        pass.set_bind_group(1, &self.scan_group, &[]);
         pass.set_bind_group(0, self.group.as_ref(), &[(sieve as u64 * self.stride) as u32]);
         for (step, groups) in self.steps() {
             let Some(pipeline) = self.pipelines.get(&step) else { continue };
             pass.set_pipeline(pipeline);
-            pass.dispatch_workgroups(groups, 1, 1);
+            match groups {
+                Groups::Exactly(groups) => pass.dispatch_workgroups(groups, 1, 1),
+                Groups::Found => pass.dispatch_workgroups_indirect(&self.groups, 0),
+            }
         }
     }
 
@@ -251,7 +283,8 @@ impl Sifter {
     }
 }
 
-fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+/// That of all steps, and that of those that say how many groups others have.
+fn layouts(device: &wgpu::Device) -> (wgpu::BindGroupLayout, wgpu::BindGroupLayout) {
     let entry = |binding, ty, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
@@ -262,10 +295,10 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let mut entries = vec![entry(0, wgpu::BufferBindingType::Uniform, true)];
     entries.extend((1..=4).map(|binding| entry(binding, storage(true), false)));
     entries.extend((5..=8).map(|binding| entry(binding, storage(false), false)));
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("sift"),
-        entries: &entries,
-    })
+    let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("sift"), entries })
+    };
+    (layout(&entries), layout(&[entry(0, storage(false), false)]))
 }
 
 fn buffer(gpu: &Gpu, usage: wgpu::BufferUsages, size: u64) -> wgpu::Buffer {
@@ -305,8 +338,7 @@ impl Sifter {
                 usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
-            let mut encoder =
-                gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             encoder.copy_buffer_to_buffer(from, 0, &to, 0, bytes);
             gpu.queue.submit([encoder.finish()]);
             to.map_async(wgpu::MapMode::Read, .., |_| ());

@@ -3,6 +3,7 @@
 //! An entity may be several instances (a body and its limbs); each has a number, under which it lies in the buffer on the device
 //! and in the grid. Numbers depend on what came before; what reaches a picture is ordered by entity and part instead.
 
+mod bounds;
 mod grid;
 mod instance;
 mod layers;
@@ -11,9 +12,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use bounds::{ball_of, casts};
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
-use simworld_core::asset::{Asset, Model};
 use simworld_core::clock::Tick;
 use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
 use simworld_core::id::EntityId;
@@ -21,11 +22,11 @@ use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 
 use crate::classes::class_of;
-use crate::look::{Look, Looks, overhang};
+use crate::look::{Look, Looks};
 use crate::mesh::{Drawn, ModelId};
 use crate::occlusion::Block;
 use crate::sieve::Grain;
-use crate::sources::{Sources, model_of};
+use crate::sources::Sources;
 use crate::threads;
 
 const NONE: u32 = u32::MAX;
@@ -476,32 +477,4 @@ impl Card {
 
 fn is_closed(mesh: Drawn) -> bool {
     matches!(mesh, Drawn::Own(mesh) if mesh.closed().is_some())
-}
-
-/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them; links may reach farther, and so may what a rig moves.
-fn ball_of(entity: &EntityRef<'_>, scene: &dyn Scene) -> Ball {
-    let (center, half) = (entity.bounds.center(), entity.bounds.half_extents().norm());
-    let aside = (entity.position() - center).norm();
-    let of_links = scene.links(entity.id).map_or(0.0, |links| links.radius() + aside);
-    let of_rig = entity
-        .info
-        .asset
-        .and_then(|id| rig_radius(entity, model_of(scene, id)?))
-        .map_or(0.0, |far| far + aside);
-    Ball { center, radius: (half + overhang(entity.kind)).max(of_links).max(of_rig) }
-}
-
-/// How far the rig of its model may lead from the origin of an entity, m, whatever it plays.
-fn rig_radius(entity: &EntityRef<'_>, (asset, model): (&Asset, &Arc<Model>)) -> Option<f64> {
-    let [low, high] = model.rig.as_ref()?.bounds();
-    let (own, collider) = (entity.info.shape.size(), asset.collider.size());
-    let far = Vector3::from_fn(|axis, _| {
-        f64::from(low[axis].abs().max(high[axis].abs())) * own[axis] / collider[axis]
-    });
-    Some(far.norm())
-}
-
-/// Whether it throws a shadow that one would miss; surfaces lie flat.
-fn casts(kind: EntityKind) -> bool {
-    !matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
 }

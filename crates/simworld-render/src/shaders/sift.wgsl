@@ -1,8 +1,8 @@
 // Who of all instances is drawn in one view, and where: listed by mesh and distance as the host lists them, in the order of entities and parts where
 // these are the same. Places follow from sums over those before, so that they are always the same.
 //
-// sift: what each instance is in the view, and how many each group lets through; scan: sums of these; gather: those that come through, one behind the
-// other. Then twice or four times tally, scan and deal, which sort them by the next eight bits of their keys. At last `copy` lays the instances out
+// `sift`: what each instance is in the view, and how many each group lets through; `scan`: sums of these; `gather`: those that come through, one behind the
+// other. Then twice or four times `tally`, `scan` and `deal`, which sort them by the next eight bits of their keys. At last `copy` lays the instances out
 // as they are drawn, and `tell` says how many there are of each kind.
 
 // The twin of `Sieve` in sieve.rs, where its units are told.
@@ -54,6 +54,8 @@ struct Kind {
 @group(0) @binding(7) var<storage, read_write> drawn: array<vec4u>;
 // Five numbers to a draw: of every kind what is whole, then of every kind what is cut out.
 @group(0) @binding(8) var<storage, read_write> draws: array<u32>;
+// How many groups look at those that come through.
+@group(1) @binding(0) var<storage, read_write> groups: array<u32>;
 
 // Which eight bits of the keys are looked at, from the lowest on.
 override DIGIT: u32 = 0u;
@@ -73,6 +75,7 @@ const LARGE: f32 = 544.0;
 
 var<workgroup> shelf: array<u32, 256>;
 var<workgroup> tallies: array<atomic<u32>, 256>;
+// How many are at hand.
 var<workgroup> total: u32;
 
 fn groups_of(count: u32) -> u32 {
@@ -186,10 +189,16 @@ fn sift(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
         entry = vec2u(key_of(cards[number]), number);
         entries[sieve.count + place] = entry;
     }
-    let comes = u32(entry.x != NOBODY);
-    let earlier = before(lane, comes);
-    if (lane == WIDE - 1u) {
-        sums[1u + group.x] = earlier + comes;
+    if (lane == 0u) {
+        atomicStore(&tallies[0], 0u);
+    }
+    workgroupBarrier();
+    if (entry.x != NOBODY) {
+        atomicAdd(&tallies[0], 1u);
+    }
+    workgroupBarrier();
+    if (lane == 0u) {
+        sums[1u + group.x] = atomicLoad(&tallies[0]);
     }
 }
 
@@ -208,6 +217,9 @@ fn scan(@builtin(local_invocation_index) lane: u32) {
     var sum = before(lane, own);
     if (!DIGITS && lane == WIDE - 1u) {
         sums[0] = sum + own;
+        groups[0] = groups_of(sum + own);
+        groups[1] = 1u;
+        groups[2] = 1u;
     }
     for (var k = first; k < last; k++) {
         let one = sums[1u + k];
@@ -218,6 +230,14 @@ fn scan(@builtin(local_invocation_index) lane: u32) {
 
 @compute @workgroup_size(256)
 fn gather(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    if (lane == 0u) {
+        let is_last = group.x + 1u == groups_of(sieve.count);
+        total = select(sums[2u + group.x], sums[0], is_last) - sums[1u + group.x];
+    }
+    // Most groups let nobody through.
+    if (workgroupUniformLoad(&total) == 0u) {
+        return;
+    }
     let place = group.x * WIDE + lane;
     var entry = vec2u(NOBODY);
     if (place < sieve.count) {
@@ -241,26 +261,20 @@ fn from_here() -> u32 {
 // How often each digit is there in a group, group by group for each digit.
 @compute @workgroup_size(256)
 fn tally(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let found = listed(lane);
-    let groups = groups_of(found);
-    if (group.x >= groups) {
-        return;
-    }
+    let found = sums[0];
+    atomicStore(&tallies[lane], 0u);
+    workgroupBarrier();
     let place = group.x * WIDE + lane;
     if (place < found) {
         atomicAdd(&tallies[digit_of(entries[from_here() + place].x)], 1u);
     }
     workgroupBarrier();
-    sums[1u + lane * groups + group.x] = atomicLoad(&tallies[lane]);
+    sums[1u + lane * groups_of(found) + group.x] = atomicLoad(&tallies[lane]);
 }
 
 @compute @workgroup_size(256)
 fn deal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let found = listed(lane);
-    let groups = groups_of(found);
-    if (group.x >= groups) {
-        return;
-    }
+    let found = sums[0];
     let place = group.x * WIDE + lane;
     var entry = vec2u(0u);
     shelf[lane] = WIDE;
@@ -275,7 +289,7 @@ fn deal(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) la
         for (var k = 0u; k < lane; k++) {
             earlier += u32(shelf[k] == digit);
         }
-        entries[sieve.count - from_here() + sums[1u + digit * groups + group.x] + earlier] = entry;
+        entries[sieve.count - from_here() + sums[1u + digit * groups_of(found) + group.x] + earlier] = entry;
     }
 }
 

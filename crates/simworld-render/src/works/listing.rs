@@ -157,7 +157,8 @@ mod tests {
     }
 
     fn look(rng: &mut StreamRng, side: f64, id: EntityId) -> ViewRequest {
-        let eye = Point3::new(rng.uniform(-0.4, 0.4) * side, rng.uniform(-0.4, 0.4) * side, rng.uniform(0.5, 30.0));
+        let eye =
+            Point3::new(rng.uniform(-0.4, 0.4) * side, rng.uniform(-0.4, 0.4) * side, rng.uniform(0.5, 30.0));
         let to = Point3::new(rng.uniform(-0.5, 0.5) * side, rng.uniform(-0.5, 0.5) * side, 1.0);
         let intrinsics = Intrinsics::from_fov(96, 72, rng.uniform(0.3, 1.6)).expect("a size in range");
         let mut request = ViewRequest::from(Camera::looking_at(eye, to, intrinsics));
@@ -178,7 +179,9 @@ mod tests {
     fn listed(works: &Works) -> Vec<(Drawn, u32)> {
         let [view] = &works.list.views[..] else { panic!("one view") };
         let run = |batch: &Batch| match &batch.instances {
-            Run::Listed(run) => run.clone().map(|place| (batch.mesh, works.list.picks[place as usize])).collect(),
+            Run::Listed(run) => {
+                run.clone().map(|place| (batch.mesh, works.list.picks[place as usize])).collect()
+            }
             Run::Found(_) => Vec::new(),
         };
         view.visible.iter().flat_map(run).collect()

@@ -96,7 +96,8 @@ fn streets_look_the_same() {
         let (mut world, movers) = street(&mut rng, length);
         for step in 0..5 {
             for id in &movers {
-                let pose = world.entity(*id).expect("it lives").pose * nalgebra::Translation3::new(0.7, 0.0, 0.0);
+                let pose =
+                    world.entity(*id).expect("it lives").pose * nalgebra::Translation3::new(0.7, 0.0, 0.0);
                 world.set_motion(*id, pose, Twist::ZERO).expect("it lives");
             }
             if step == 3 {
