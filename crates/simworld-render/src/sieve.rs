@@ -208,6 +208,7 @@ mod tests {
     use proptest::prelude::*;
     use simworld_core::camera::{Camera, Intrinsics};
     use simworld_core::geometry::pose_facing;
+    use simworld_core::ops;
 
     use super::*;
     use crate::mesh::MeshId;
@@ -255,8 +256,8 @@ mod tests {
             let view = View::new(&Camera::looking_along(&pose, intrinsics), 0.05, 3000.0, 4096).expect("a sound camera");
             let sieve = Sieve::of_view(&view, 0.7, true, [None; 2]);
             for (x, y, z, far, large) in balls {
-                let away = Vector3::new(x, y, z) * 10_f64.powf(far);
-                let ball = Ball { center: view.eye + away, radius: 10_f64.powf(large) };
+                let away = Vector3::new(x, y, z) * ops::pow(10.0, far);
+                let ball = Ball { center: view.eye + away, radius: ops::pow(10.0, large) };
                 // Places are rounded where they lie, thousands of kilometres out.
                 let away = ball.center - view.eye;
                 let passes = sieve.sift(&card(MeshId::Cuboid), &Grain::of(&ball)).is_some();
