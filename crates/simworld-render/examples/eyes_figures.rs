@@ -15,7 +15,9 @@ use simworld_core::geometry::{Point3, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
 use simworld_core::seed::{Seed, StreamRng};
-use simworld_render::{Backend, Frame, RenderConfig, RenderError, Renderer, ViewOptions, ViewRequest, Views};
+use simworld_render::{
+    Backend, Culling, Frame, RenderConfig, RenderError, Renderer, ViewOptions, ViewRequest, Views,
+};
 
 const HELP: &str = "\
 Views a second on this adapter, by both backends.
@@ -115,6 +117,7 @@ fn main() -> Result<(), Failure> {
         }
     }
     print_ratios(&measured_rows);
+    compare_culling(&settings, is_cpu, &mut measured_rows)?;
     if measured_rows.is_empty() {
         return Err(format!("no row holds the text {:?}", settings.only).into());
     }
@@ -151,6 +154,50 @@ fn print_ratios(rows: &[(String, f64)]) {
             println!("{name}, 640 x 480: {:.2}", base / other);
         }
     }
+}
+
+/// What of one picture by triangles culled by the host one is that the device culls; both are measured in turns, so that whatever else the machine does
+/// slows them alike.
+fn compare_culling(
+    settings: &Settings,
+    is_cpu: bool,
+    measured: &mut Vec<(String, f64)>,
+) -> Result<(), Failure> {
+    const TURNS: u32 = 3;
+    let bodies = settings.bodies.unwrap_or(if is_cpu { 1000 } else { 10_000 });
+    let things = settings.things;
+    let rows = [
+        ("culling: 640 x 480 of a city", things, 0),
+        ("culling: 640 x 480 of a city ten times as large", things * 10, 0),
+        ("culling: 640 x 480 among bodies that move", things.max(bodies * 4), bodies),
+    ];
+    for (what, things, bodies) in rows.into_iter().filter(|(what, ..)| what.contains(&settings.only)) {
+        let (mut world, mut movers) = city(things)?;
+        movers.truncate(bodies as usize);
+        let (view, results) = (street_views(1, 640, 480)?, Results::OnHost(ViewOptions::default()));
+        let renderer = |culling| {
+            Renderer::new(&RenderConfig { backend: Backend::Raster, culling, ..RenderConfig::default() })
+        };
+        let mut pair = [renderer(Culling::Host)?, renderer(Culling::Device)?];
+        let mut rates = [0.0; 2];
+        let mut work = [0.0; 2];
+        for _ in 0..TURNS {
+            for (index, renderer) in pair.iter_mut().enumerate() {
+                let seconds = settings.seconds / f64::from(TURNS);
+                let one = measure(renderer, &mut world, &movers, &view, results, seconds)?;
+                rates[index] += one.rate / f64::from(TURNS);
+                work[index] += one.work.unwrap_or(0.0) * 1e3 / f64::from(TURNS);
+            }
+        }
+        let ([host, device], [host_work, device_work]) = (rates, work);
+        println!(
+            "{what}: by the host {host:.1} a second and {host_work:.1} ms of processor each, by the device {device:.1} and \
+             {device_work:.1}; device over host {:.2}",
+            device / host
+        );
+        measured.push((what.to_owned(), device));
+    }
+    Ok(())
 }
 
 /// Seconds that this process had of all processors; Linux tells them in hundredths.

@@ -50,6 +50,21 @@ pub enum Backend {
     Raycast,
 }
 
+/// Who finds out what a view of the raster backend may see. Pictures are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Culling {
+    /// The device where it is a GPU, the host where it is software.
+    #[default]
+    Auto,
+    /// The host, which also leaves out what stands behind houses.
+    Host,
+    /// The device: nothing is left for the host to do that grows with what stands still. The host does it all the same where the adapter
+    /// offers no draws from its own lists, and while models play clips, whose poses are made for those that are seen.
+    Device,
+}
+
 /// How edges in RGB are smoothed. Depth and ids never are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -84,6 +99,8 @@ pub struct RenderConfig {
     pub adapter: AdapterChoice,
     /// How pictures are found; both ways agree on depth and ids but for a few pixels at edges.
     pub backend: Backend,
+    /// Who finds out what the raster backend draws.
+    pub culling: Culling,
     /// Distance of the nearest plane that is drawn, m, from 1e-3 to 100.
     pub near: f64,
     /// Entities whose bounds lie wholly beyond this distance are not drawn, m, from `near` to 1e6.
@@ -111,6 +128,7 @@ impl Default for RenderConfig {
             backends: Backends::Any,
             adapter: AdapterChoice::Fastest,
             backend: Backend::Auto,
+            culling: Culling::Auto,
             near: 0.05,
             far: 1000.0,
             min_pixels: 0.7,

@@ -7,21 +7,42 @@ use simworld_core::id::EntityId;
 
 use crate::batch::Projection;
 use crate::gpu::Casters;
-use crate::look::Detail;
-use crate::mesh::{Drawn, Extent};
+use crate::mesh::{Drawn, Extent, ModelId};
 use crate::occlusion::Occlusion;
-use crate::resident::{Ball, Card, Residents};
+use crate::resident::{Ball, Residents};
 use crate::shadow::ShadowView;
-use crate::view::View;
+use crate::sieve::Sieve;
+use crate::view::{View, slack};
 
-/// A run of instances of one mesh, as positions in [`DrawList::picks`].
+/// Instances of one mesh that are drawn one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Batch {
     pub mesh: Drawn,
-    pub instances: Range<u32>,
+    pub instances: Run,
 }
 
-/// One instance to sort: mesh, rank, slot and part, so that the order depends on the scene alone; then its number.
+impl Batch {
+    /// The model that they are, if they are one.
+    pub(crate) const fn model(&self) -> Option<ModelId> {
+        match self.mesh {
+            Drawn::Model(id) => Some(id),
+            Drawn::Own(_) => None,
+        }
+    }
+}
+
+/// Which instances.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Run {
+    /// Positions in [`DrawList::picks`].
+    Listed(Range<u32>),
+    /// What a device found of so many kinds from this one on, all of one pattern: the mesh is that of the first.
+    Found(Range<u32>),
+}
+
+/// One instance to sort: mesh, bucket of distance, slot and part, so that the order depends on the scene alone; then its number. Near ones come
+/// first, so that what they hide is not shaded; flat surfaces keep the order of their entities, because where two lie in one plane the first is
+/// seen, and that must not change with the camera.
 type Entry = (Drawn, u32, u32, u32, u32);
 
 /// The batches of one view.
@@ -55,6 +76,9 @@ pub(crate) struct DrawList {
     seen: Vec<Entry>,
     shading: Vec<Entry>,
     occlusion: Occlusion,
+    /// What stands behind houses is listed too.
+    #[cfg(test)]
+    pub all: bool,
     /// Blocks that may hide something, with their rank, slot and number.
     blocks: Vec<(u32, u32, u32)>,
     extents: Vec<Extent>,
@@ -62,8 +86,6 @@ pub(crate) struct DrawList {
 
 /// As many blocks, the nearest of them, hide what is behind them.
 const MOST_BLOCKS: usize = 192;
-/// A texel of a shadow says less than a pixel: there is a silhouette and nothing else, and its edge is spread over two texels.
-const SHADOW_SHARE: f64 = 0.33;
 /// Blocks of fewer pixels across hide nothing.
 const LEAST_BLOCK: f64 = 24.0;
 
@@ -90,31 +112,20 @@ impl DrawList {
         self.shading.clear();
         let [hidden, only] = [hidden, only].map(|id| id.map(|id| id.index() as u32));
         let from_eye = |ball: &Ball| ball.center - view.eye;
-        let pixels = |ball: &Ball| view.pixels(ball.radius, from_eye(ball).norm().max(ball.radius));
         self.find_blocks(residents, view, min_pixels, hidden, only);
         let (occlusion, extents) = (&self.occlusion, &self.extents);
         let hides = |ball: &Ball| occlusion.hides(view, &from_eye(ball), ball.radius);
         let sees = |cell: &Ball, largest: f64| {
             view.sees_some(&from_eye(cell), cell.radius, largest, min_pixels) && !hides(cell)
         };
+        let sieve = Sieve::of_view(view, min_pixels, residents.finest, [hidden, only]);
         residents.grid.visit(sees, |number, ball| {
-            let center = from_eye(ball);
-            let card = &residents.cards[number as usize];
-            let (detail, mesh) = if residents.finest {
-                (Detail::Near, card.mesh)
-            } else {
-                let pixels = pixels(ball);
-                (Detail::of(ball.radius, pixels), card.mesh.at_pixels(pixels))
-            };
-            let wanted = hidden != Some(card.slot)
-                && only.is_none_or(|slot| slot == card.slot)
-                && card.details & detail.bit() != 0;
-            if wanted
-                && view.sees(&center, ball.radius, min_pixels)
+            let (card, grain) = (&residents.cards[number as usize], &residents.grains[number as usize]);
+            if let Some((mesh, bucket)) = sieve.sift(card, grain)
                 && !hides(ball)
                 && !body_ball(residents, extents, number).is_some_and(|ball| hides(&ball))
             {
-                self.seen.push((mesh, rank(mesh, &center), card.slot, card.part, number));
+                self.seen.push((mesh, bucket, card.slot, card.part, number));
             }
         });
         self.seen.sort_unstable();
@@ -123,30 +134,28 @@ impl DrawList {
         self.views.push(ViewBatches { visible, shadows });
     }
 
+    /// Adds a view of which the device finds what it sees, and what throws shadows into its map if that is to be drawn.
+    pub(crate) fn add_found(&mut self, batches: &[Batch], is_shaded: bool) {
+        let shadows = is_shaded
+            .then(|| ShadowList { batches: [batches.to_vec(), Vec::new()], casters: Default::default() });
+        self.views.push(ViewBatches { visible: batches.to_vec(), shadows });
+    }
+
     /// What throws shadows into a map, as finely as its texels show: the same for every eye.
     fn shadows(&mut self, residents: &Residents, shadow: &ShadowView) -> ShadowList {
-        let texels = |ball: &Ball| 2.0 * ball.radius / shadow.texel * SHADOW_SHARE;
-        let level = |card: &Card, ball: &Ball| {
-            if residents.finest {
-                (Detail::Near.bit(), card.mesh)
-            } else {
-                (Detail::of(ball.radius, texels(ball)).bit(), card.mesh.at_pixels(texels(ball)))
-            }
-        };
-        let reaches = |ball: &Ball| shadow.reaches(&ball.center, ball.radius);
+        let sieve = Sieve::of_shadow(shadow, residents.finest);
         let mut layers = [std::mem::take(&mut self.seen), std::mem::take(&mut self.shading)];
         layers.iter_mut().for_each(Vec::clear);
-        residents.grid.visit(
-            |cell, _| reaches(cell),
-            |number, ball| {
-                let card = &residents.cards[number as usize];
-                let (detail, mesh) = level(card, ball);
-                if card.casts && card.details & detail != 0 && reaches(ball) {
-                    let entry = (mesh, 0, card.slot, card.part, number);
-                    layers[usize::from(card.mobile)].push(entry);
-                }
-            },
-        );
+        let reaches = |cell: &Ball, largest: f64| {
+            let away = (cell.center - shadow.center).norm();
+            shadow.reaches(&cell.center, cell.radius + slack(away, cell.radius.max(largest)))
+        };
+        residents.grid.visit(reaches, |number, _| {
+            let (card, grain) = (&residents.cards[number as usize], &residents.grains[number as usize]);
+            if let Some((mesh, _)) = sieve.sift(card, grain) {
+                layers[usize::from(card.mobile)].push((mesh, 0, card.slot, card.part, number));
+            }
+        });
         for layer in &mut layers {
             layer.sort_unstable();
         }
@@ -168,6 +177,10 @@ impl DrawList {
         only: Option<u32>,
     ) {
         self.occlusion.begin(view);
+        #[cfg(test)]
+        if self.all {
+            return;
+        }
         if only.is_some() || view.projection != Projection::Pinhole {
             return;
         }
@@ -216,16 +229,11 @@ fn batches(sorted: &[Entry], picks: &mut Vec<u32>) -> Vec<Batch> {
         let position = picks.len() as u32;
         picks.push(*number);
         match batches.last_mut() {
-            Some(last) if last.mesh == *mesh => last.instances.end = position + 1,
-            _ => batches.push(Batch { mesh: *mesh, instances: position..position + 1 }),
+            Some(Batch { mesh: known, instances: Run::Listed(run) }) if known == mesh => {
+                run.end = position + 1;
+            }
+            _ => batches.push(Batch { mesh: *mesh, instances: Run::Listed(position..position + 1) }),
         }
     }
     batches
-}
-
-/// Near ones first, so that what they hide is not shaded; flat surfaces keep the order of their entities, because where two
-/// lie in one plane the first is seen, and that must not change with the camera.
-fn rank(mesh: Drawn, center: &Vector3) -> u32 {
-    // The bits of positive floats sort as the floats do.
-    if mesh.pattern().is_flat() { 0 } else { (center.norm_squared() as f32).to_bits() }
 }

@@ -10,9 +10,8 @@ use simworld_core::id::AssetId;
 use simworld_core::scene::EntityRef;
 
 use crate::RenderError;
-use crate::draw_list::Batch;
 use crate::gpu::{Gpu, Matter};
-use crate::mesh::{ClipPose, Drawn, ModelId, Vertex};
+use crate::mesh::{ClipPose, ModelId, Vertex};
 use crate::poses::Poses;
 use crate::sources::{Modelled, Source, Sources};
 use crate::threads;
@@ -56,15 +55,11 @@ impl Models {
         &mut self,
         gpu: &Gpu,
         sources: Sources<'_>,
-        batches: &[&[Batch]],
+        drawn: impl IntoIterator<Item = ModelId>,
     ) -> Result<bool, RenderError> {
         self.held.retain(|_, held| Arc::strong_count(&held.model) > 1);
         self.now += 1;
-        let drawn = batches.iter().copied().flatten().filter_map(|batch| match batch.mesh {
-            Drawn::Model(id) => Some(id),
-            Drawn::Own(_) => None,
-        });
-        let wanted: BTreeSet<ModelId> = drawn.collect();
+        let wanted: BTreeSet<ModelId> = drawn.into_iter().collect();
         let mut is_new = false;
         let mut missing = Vec::new();
         for ModelId { source: id, pose } in wanted {

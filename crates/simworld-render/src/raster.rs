@@ -5,9 +5,11 @@ use std::ops::Range;
 use crate::RenderError;
 use crate::batch::{Channels, Layout, Span};
 use crate::config::AntiAliasing;
-use crate::draw_list::{Batch, DrawList, ShadowList, ViewBatches};
+use crate::draw_list::{Batch, DrawList, Run, ShadowList, ViewBatches};
 use crate::falling::Falling;
-use crate::gpu::{Brush, Features, Gpu, Matter, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Targets};
+use crate::gpu::{
+    Brush, Features, Gpu, Matter, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Sifter, Targets,
+};
 use crate::mesh::{Drawn, Extent, MeshLibrary, Pattern};
 use crate::models::Models;
 use crate::shadow::{ShadowKey, ShadowView};
@@ -34,6 +36,8 @@ struct Meshes {
 pub(crate) struct Job<'a> {
     pub scenery: &'a Scenery,
     pub list: &'a DrawList,
+    /// What finds on the device what is drawn: of each view, then of the shadow map of each.
+    pub sifter: Option<&'a Sifter>,
     pub layout: &'a Layout,
     pub channels: Channels,
     pub gpu: &'a Gpu,
@@ -67,6 +71,11 @@ impl Raster {
         &self.meshes.extents
     }
 
+    /// The corners of what is drawn that are whole, or of which something is cut out; `None` where it has none of these.
+    pub(crate) fn corners(&self, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
+        corners(&self.meshes, &self.models, mesh, matter)
+    }
+
     /// Makes room for the largest view of a batch.
     pub(crate) fn hold(&mut self, gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), RenderError> {
         let held = self.targets.as_ref().map_or([0; 2], |targets| [targets.width, targets.height]);
@@ -91,13 +100,14 @@ impl Raster {
             if let (Some(key), Some(list)) = (&key, &batches.shadows) {
                 painter.draw_shadows(encoder, shadows, view, key, list);
             }
+            painter.sift(encoder, view);
             let one = View { index: view, span, batches, shadows: shadows.group(key.as_ref()) };
             painter.draw_view(encoder, targets, &one);
             targets.copy(encoder, planes, span, job.channels);
             if job.channels.contains(Channels::NORMALS) {
                 // The texture of the ids was copied, and is free.
                 let mut pass = begin(encoder, &[attachment(&targets.id_view, None)], &targets.z, span);
-                job.scenery.bind(&mut pass, view);
+                painter.bind(&mut pass, view);
                 painter.draw_batches(&mut pass, &batches.visible, |_, matter| Brush::Normals(matter));
                 drop(pass);
                 Targets::copy_one(encoder, &targets.id, &planes.normals, span);
@@ -115,6 +125,21 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
+    /// Has the device find what is drawn next, where it does that.
+    fn sift(&self, encoder: &mut wgpu::CommandEncoder, sieve: usize) {
+        if let Some(sifter) = self.job.sifter {
+            sifter.sift(encoder, sieve);
+        }
+    }
+
+    /// Binds what a view, or its shadow map, is drawn from.
+    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, view: usize) {
+        self.job.scenery.bind(pass, view);
+        if let Some(sifter) = self.job.sifter {
+            pass.set_vertex_buffer(1, sifter.drawn.slice(..));
+        }
+    }
+
     /// Brings a shadow map up to date: nothing is drawn while nothing changed in it.
     fn draw_shadows(
         &mut self,
@@ -127,6 +152,13 @@ impl Painter<'_> {
         let [still, moving] = &list.batches;
         let view = self.job.layout.spans.len() + view;
         let clear = wgpu::LoadOp::Clear(1.0);
+        if self.job.sifter.is_some() {
+            if shadows.plan_whole(self.job.gpu, key, self.job.version) {
+                self.sift(encoder, view);
+                self.draw_layer(encoder, view, shadows.target(key, false), still, clear);
+            }
+            return;
+        }
         match shadows.plan(self.job.gpu, key, self.job.version, &list.casters) {
             Redraw::Nothing => {}
             Redraw::Whole => self.draw_layer(encoder, view, shadows.target(key, false), still, clear),
@@ -154,7 +186,7 @@ impl Painter<'_> {
             depth_stencil_attachment: Some(depth_attachment(target, load)),
             ..Default::default()
         });
-        self.job.scenery.bind(&mut pass, view);
+        self.bind(&mut pass, view);
         self.draw_batches(&mut pass, casters, |_, matter| Brush::Shadow(matter));
     }
 
@@ -189,7 +221,7 @@ impl Painter<'_> {
         one: &View<'_>,
         brush: impl Fn(Pattern, Matter) -> Brush,
     ) {
-        self.job.scenery.bind(pass, one.index);
+        self.bind(pass, one.index);
         pass.set_bind_group(1, one.shadows, &[]);
         self.draw_batches(pass, &one.batches.visible, brush);
     }
@@ -230,18 +262,29 @@ impl Painter<'_> {
                     Drawn::Own(_) => self.meshes.bind(pass),
                 }
                 is_own = matches!(batch.mesh, Drawn::Own(_));
-                pass.draw_indexed(corners, 0, batch.instances.clone());
+                match &batch.instances {
+                    Run::Listed(run) => pass.draw_indexed(corners, 0, run.clone()),
+                    Run::Found(kinds) => {
+                        if let Some(sifter) = self.job.sifter {
+                            sifter.draw(pass, kinds, matter);
+                        }
+                    }
+                }
             }
         }
     }
 
-    /// The corners of what is drawn that are whole, or of which something is cut out; `None` where it has none of these.
     fn corners(&self, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
-        match (mesh, matter) {
-            (Drawn::Model(id), _) => self.models.corners(id, matter),
-            (Drawn::Own(mesh), Matter::Whole) => Some(self.meshes.ranges[mesh as usize].clone()),
-            (Drawn::Own(_), Matter::Cut) => None,
-        }
+        corners(self.meshes, self.models, mesh, matter)
+    }
+}
+
+/// The corners of what is drawn that are whole, or of which something is cut out; `None` where it has none of these.
+fn corners(meshes: &Meshes, models: &Models, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
+    match (mesh, matter) {
+        (Drawn::Model(id), _) => models.corners(id, matter),
+        (Drawn::Own(mesh), Matter::Whole) => Some(meshes.ranges[mesh as usize].clone()),
+        (Drawn::Own(_), Matter::Cut) => None,
     }
 }
 

@@ -9,7 +9,7 @@ use simworld_core::scene::Scene;
 
 use crate::batch::{Channels, Layout, Span, ViewOptions, ViewRequest};
 use crate::works::{Pending, Works};
-use crate::{Frame, RenderConfig, RenderError, Views};
+use crate::{Culling, Frame, RenderConfig, RenderError, Views};
 
 /// Draws scenes without a window.
 ///
@@ -110,6 +110,11 @@ impl Renderer {
     /// The name of the adapter and the interface through which it is used, such as "llvmpipe (Vulkan)".
     pub fn adapter(&self) -> String {
         format!("{} ({:?})", self.works.gpu.info.name, self.works.gpu.info.backend)
+    }
+
+    /// Who culls for the raster backend on this adapter, while no model plays a clip.
+    pub fn culling(&self) -> Culling {
+        if self.works.culls_on_device(self.config.culling) { Culling::Device } else { Culling::Host }
     }
 
     /// Its device, for those who go on with [`DeviceViews`].

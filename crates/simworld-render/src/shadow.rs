@@ -67,6 +67,13 @@ impl ShadowView {
         clip
     }
 
+    /// Inward normals of the sides beyond which nothing throws its shadow into the map, in the world, and how far inside of each its middle is, m.
+    pub(crate) fn sides(&self) -> [(Vector3, f64); 5] {
+        let axis = |row: usize| -> Vector3 { self.light_from_world.row(row).transpose() };
+        let (x, y, z) = (axis(0), axis(1), axis(2));
+        [x, -x, y, -y, -z].map(|normal| (normal, self.radius))
+    }
+
     /// Whether a ball may throw its shadow into the map; its centre is in the world.
     pub(crate) fn reaches(&self, center: &Point3, radius: f64) -> bool {
         let local = self.light_from_world * (center - self.center);

@@ -109,6 +109,11 @@ impl View {
         self.optical_from_world.row(2).transpose()
     }
 
+    /// Inward normals of the four sides of what is seen, optical frame, and how far inside of each the eye is, m.
+    pub(crate) const fn sides(&self) -> [(Vector3, f64); 4] {
+        self.sides
+    }
+
     /// Whether a ball may be on the picture; its centre is camera-relative.
     pub(crate) fn sees(&self, center: &Vector3, radius: f64, min_pixels: f64) -> bool {
         let distance = center.norm();
@@ -122,10 +127,12 @@ impl View {
         optical.z + radius >= self.near && self.is_between(&optical, radius)
     }
 
-    /// Whether a ball may hold balls of at most that radius that are on the picture; its centre is camera-relative.
+    /// Whether a ball may hold balls of at most that radius that are on the picture; its centre is camera-relative. By the [slack](slack) of a
+    /// sieve some that hold none count too.
     pub(crate) fn sees_some(&self, center: &Vector3, radius: f64, largest: f64, min_pixels: f64) -> bool {
-        let nearest = (center.norm() - radius - largest).max(largest).max(1e-9);
-        self.pixels(largest, nearest) >= min_pixels && self.sees(center, radius, 0.0)
+        let slack = slack(center.norm(), radius);
+        let nearest = (center.norm() - radius - largest - slack).max(largest).max(1e-9);
+        self.pixels(largest, nearest) * 1.002 >= min_pixels && self.sees(center, radius + slack, 0.0)
     }
 
     /// Pixels across a ball at that distance.
@@ -168,6 +175,11 @@ impl View {
         }
         Aabb { min: region.min.sup(&reach.min), max: region.max.inf(&reach.max) }
     }
+}
+
+/// How far beside what is seen a ball may be, m, that a [`Sieve`](crate::sieve::Sieve) lets through: one of those in a ball of that radius, so far away.
+pub(crate) fn slack(distance: f64, radius: f64) -> f64 {
+    0.25 + 1e-3 * (distance + 2.0 * radius)
 }
 
 fn check(camera: &Camera, limit: u32) -> Result<(), RenderError> {

@@ -1,5 +1,7 @@
 //! Everything that lives on a device: what goes when the device goes.
 
+mod listing;
+
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -11,9 +13,9 @@ use simworld_core::scene::Scene;
 use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
 use crate::coats::Coats;
 use crate::config::{AntiAliasing, Backend, LevelOfDetail};
-use crate::draw_list::{DrawList, ViewBatches};
+use crate::draw_list::DrawList;
 use crate::falling::Falling;
-use crate::gpu::{Features, Globals, Gpu, MOST_MAPS, Planes, Readback, Readbacks, Scenery, Timing, place};
+use crate::gpu::{Features, Globals, Gpu, Planes, Readback, Readbacks, Scenery, Sifter, Timing, place};
 use crate::lamps::LampGrids;
 use crate::light::Light;
 use crate::raster::{Job, Raster};
@@ -31,6 +33,8 @@ pub(crate) struct Works {
     raster: Raster,
     /// Made when it is first used.
     raycast: Option<Raycast>,
+    /// Made when the device first culls.
+    sifter: Option<Sifter>,
     scenery: Scenery,
     pub planes: Planes,
     readbacks: Readbacks,
@@ -81,6 +85,7 @@ impl Works {
             shadow_resolution,
             raster,
             raycast: None,
+            sifter: None,
             scenery,
             planes,
             readbacks,
@@ -97,7 +102,7 @@ impl Works {
     /// vain cannot be told from others. Batches under way have buffers of their own, and stay.
     pub(crate) fn relieve(&mut self, config: &RenderConfig) {
         self.planes = Planes::new(&self.gpu);
-        (self.readbacks, self.raycast) = (Readbacks::default(), None);
+        (self.readbacks, self.raycast, self.sifter) = (Readbacks::default(), None, None);
         self.coats = Coats::new(&self.gpu, config.texture_memory);
         // What was held is free when the device has seen that; if it fails again the next call says so.
         let _ = self.gpu.wait();
@@ -158,6 +163,7 @@ impl Works {
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.timing.begin();
         if is_cast {
+            self.pass_over();
             let store = self.coats.texels();
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu, store));
             // A ray of a table is no pixel that something could be smaller than.
@@ -185,9 +191,10 @@ impl Works {
             raycast.prepare(&self.gpu, &casts, &sight.falling, rays);
             raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
-            self.list(config, scene, requests, &sight, in_color)?;
+            let is_found = self.list(config, scene, requests, &sight, in_color)?;
             self.raster.hold(&self.gpu, layout.largest)?;
             let job = Job {
+                sifter: self.sifter.as_ref().filter(|_| is_found),
                 gpu: &self.gpu,
                 version: self.residents.version,
                 scenery: &self.scenery,
@@ -309,37 +316,6 @@ impl Works {
         features.set(Features::SNOW, cover.snow_depth > 0.0);
         features.set(Features::MODELS, is_cast && !self.coats.is_empty());
         Ok((globals, features))
-    }
-
-    /// Finds what the raster backend draws, and sends that to the device.
-    fn list(
-        &mut self,
-        config: &RenderConfig,
-        scene: &dyn Scene,
-        requests: &[ViewRequest],
-        sight: &Sight,
-        in_color: bool,
-    ) -> Result<(), RenderError> {
-        let pairs = sight.views.iter().zip(&sight.shadows);
-        self.list.clear();
-        self.raster.shadows.begin();
-        // Maps of a larger batch are given away while it is drawn, and a model may change where no instance does.
-        let may_stay = in_color && requests.len() <= MOST_MAPS && self.raster.models.is_empty();
-        let version = self.residents.version;
-        for ((view, shadow), request) in pairs.zip(requests) {
-            let left_out = [request.hidden, request.only];
-            let shadow = shadow.as_ref().filter(|shadow| {
-                in_color && !(may_stay && self.raster.shadows.is_current(&shadow.key, version))
-            });
-            self.list.add(&self.residents, view, shadow, config.min_pixels, left_out);
-        }
-        self.scenery.send_picks(&self.gpu, &self.list.picks, &self.residents)?;
-        let batches: Vec<&[crate::draw_list::Batch]> =
-            self.list.views.iter().flat_map(ViewBatches::all).collect();
-        if self.raster.models.hold(&self.gpu, self.residents.sources(scene), &batches)? {
-            self.raster.shadows.forget();
-        }
-        Ok(())
     }
 
     /// Something failed: what was recorded may never have been drawn, and shadow maps are drawn anew.

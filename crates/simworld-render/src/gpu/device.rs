@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::Timing;
+use super::{Timing, sifter};
 use crate::config::{AdapterChoice, Backends};
 use crate::{RenderConfig, RenderError};
 
@@ -14,6 +14,8 @@ pub(crate) struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub info: wgpu::AdapterInfo,
+    /// Whether it can cull by itself.
+    pub can_sift: bool,
     fault: Arc<Mutex<Option<RenderError>>>,
     /// Why the device is gone, if it is.
     lost: Arc<Mutex<Option<String>>>,
@@ -44,9 +46,10 @@ impl Gpu {
                 .min(STORAGE_BUFFERS),
             ..wgpu::Limits::downlevel_defaults().using_resolution(offered)
         };
+        let can_sift = sifter::is_offered(&adapter, &limits);
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("simworld"),
-            required_features: Timing::features(&adapter),
+            required_features: Timing::features(&adapter) | sifter::features(&adapter),
             required_limits: limits,
             ..Default::default()
         }))
@@ -63,7 +66,7 @@ impl Gpu {
             let why = format!("{reason:?}: {text}");
             slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
         });
-        Ok(Self { device, queue, info, fault, lost })
+        Ok(Self { device, queue, info, can_sift, fault, lost })
     }
 
     /// Why the device is gone, if it is.

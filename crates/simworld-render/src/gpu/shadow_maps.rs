@@ -28,6 +28,8 @@ struct Held {
     key: ShadowKey,
     /// Of the residents when it was last found up to date.
     version: u64,
+    /// The round in which it was last drawn from what the device found.
+    redrawn: u64,
     /// What is in it, still and moving.
     drawn: [Casters; 2],
     whole: Layer,
@@ -139,6 +141,15 @@ impl ShadowMaps {
         Redraw::Layers { stale }
     }
 
+    /// Makes a map ready to be drawn whole from what the device finds; false if it was in this batch.
+    pub(crate) fn plan_whole(&mut self, gpu: &Gpu, key: &ShadowKey, version: u64) -> bool {
+        let (index, round) = (self.find(gpu, key), self.round);
+        let held = &mut self.held[index];
+        (held.used, held.version) = (round, version);
+        held.drawn = [NOT_DRAWN.to_vec(), Casters::new()];
+        std::mem::replace(&mut held.redrawn, round) != round
+    }
+
     /// The map of a key as a target; `still` is the layer of what stands still.
     pub(crate) fn target(&self, key: &ShadowKey, still: bool) -> Option<&wgpu::TextureView> {
         let held = self.held.iter().find(|held| held.key == *key)?;
@@ -162,12 +173,21 @@ impl ShadowMaps {
             let whole = Layer::new(gpu, self.side);
             let group = bind(gpu, &self.layout, &self.sampler, &whole);
             let drawn = [NOT_DRAWN.to_vec(), Casters::new()];
-            self.held.push(Held { key: *key, version: 0, drawn, whole, still: None, group, used: 0 });
+            self.held.push(Held {
+                key: *key,
+                version: 0,
+                redrawn: 0,
+                drawn,
+                whole,
+                still: None,
+                group,
+                used: 0,
+            });
             return self.held.len() - 1;
         }
         let oldest = (0..self.held.len()).min_by_key(|index| self.held[*index].used).unwrap_or(0);
         let held = &mut self.held[oldest];
-        held.key = *key;
+        (held.key, held.redrawn) = (*key, 0);
         held.drawn = [NOT_DRAWN.to_vec(), Casters::new()];
         if let Some((_, layered)) = &mut held.still {
             *layered = NOT_DRAWN.to_vec();

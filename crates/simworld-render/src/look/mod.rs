@@ -36,14 +36,12 @@ pub(crate) enum Detail {
 }
 
 impl Detail {
-    /// Of something in a ball of that radius (m) that is so many pixels across; what is large has its details in less of it.
-    pub(crate) fn of(radius: f64, pixels: f64) -> Self {
-        let share = if radius > 8.5 { 0.3 } else { 1.0 };
-        match pixels * share {
-            pixels if pixels < 28.0 => Self::Far,
-            pixels if pixels < 80.0 => Self::Middle,
-            _ => Self::Near,
-        }
+    /// What has a larger ball, m, has its details in less of it.
+    pub(crate) const LARGE: f64 = 8.5;
+
+    /// Pixels across a ball below which that in it is far, and below which it is in the middle: of what is not large, and of what is.
+    pub(crate) fn thresholds() -> [[f64; 2]; 2] {
+        [1.0, 0.3].map(|share| [28.0, 80.0].map(|pixels| pixels / share))
     }
 
     const ALL: [Self; 3] = [Self::Far, Self::Middle, Self::Near];

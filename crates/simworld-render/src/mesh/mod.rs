@@ -313,14 +313,6 @@ pub(crate) enum Drawn {
 }
 
 impl Drawn {
-    /// What stands for it where the ball around its entity is so many pixels across.
-    pub(crate) fn at_pixels(self, pixels: f64) -> Self {
-        match self.speck() {
-            Some((few, speck)) if pixels < few => speck,
-            _ => self,
-        }
-    }
-
     /// What stands for it where fewer pixels than these are across the ball around its entity, if anything does.
     pub(crate) const fn speck(self) -> Option<(f64, Self)> {
         match self {

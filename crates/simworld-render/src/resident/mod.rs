@@ -3,6 +3,7 @@
 //! An entity may be several instances (a body and its limbs); each has a number, under which it lies in the buffer on the device
 //! and in the grid. Numbers depend on what came before; what reaches a picture is ordered by entity and part instead.
 
+mod bounds;
 mod grid;
 mod instance;
 mod layers;
@@ -11,9 +12,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use bounds::{ball_of, casts};
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
-use simworld_core::asset::{Asset, Model};
 use simworld_core::clock::Tick;
 use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
 use simworld_core::id::EntityId;
@@ -21,10 +22,11 @@ use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 
 use crate::classes::class_of;
-use crate::look::{Look, Looks, overhang};
+use crate::look::{Look, Looks};
 use crate::mesh::{Drawn, ModelId};
 use crate::occlusion::Block;
-use crate::sources::{Sources, model_of};
+use crate::sieve::Grain;
+use crate::sources::Sources;
 use crate::threads;
 
 const NONE: u32 = u32::MAX;
@@ -112,6 +114,8 @@ impl Dressed {
 pub(crate) struct Residents {
     pub instances: Vec<Instance>,
     pub cards: Vec<Card>,
+    /// By number, the ball around its entity.
+    pub grains: Vec<Grain>,
     pub grid: Grid,
     /// Of these, those that nobody looks through.
     pub walls: Grid,
@@ -119,6 +123,10 @@ pub(crate) struct Residents {
     pub names: Arc<Vec<EntityId>>,
     /// Numbers whose instances changed since the device had them; some may come twice.
     pub changed: Vec<u32>,
+    /// Numbers whose cards or balls changed since a device that culls had them; some may come twice, and instances alone may have changed.
+    pub recarded: Vec<u32>,
+    /// Grows with every instance that comes or goes.
+    pub arrangement: u64,
     /// Grows whenever everything was dressed anew.
     pub epoch: u64,
     /// Grows with every change.
@@ -225,6 +233,9 @@ impl Residents {
         self.stamps.clear();
         self.version += 1;
         self.cards.clear();
+        self.grains.clear();
+        self.recarded.clear();
+        self.arrangement += 1;
         self.grid.clear();
         self.walls.clear();
         self.heads.clear();
@@ -308,7 +319,7 @@ impl Residents {
     fn fill(&mut self, slot: usize, there: &There, parts: &[(Part, Instance)]) {
         let mut last = NONE;
         let mut number = self.heads[slot];
-        let casts = casts(there.kind);
+        let (casts, grain) = (casts(there.kind), Grain::of(&there.ball));
         for (index, (part, instance)) in (0..).zip(parts) {
             if number == NONE {
                 number = self.take_number();
@@ -326,7 +337,8 @@ impl Residents {
             let card = &mut self.cards[number as usize];
             let before = card.slot_there().map(|_| card.mesh);
             let is_same = self.instances[number as usize] == instance
-                && card.mesh == part.mesh
+                && self.grains[number as usize] == grain
+                && (card.mesh, card.slot, card.part) == (part.mesh, slot as u32, index)
                 && (card.casts, card.details) == (casts, part.details);
             *card = Card {
                 mesh: part.mesh,
@@ -343,6 +355,7 @@ impl Residents {
             }
             if !is_same {
                 self.instances[number as usize] = instance;
+                self.grains[number as usize] = grain;
                 self.note(number);
                 self.resurfaced |= is_surface;
             }
@@ -369,6 +382,7 @@ impl Residents {
             self.grid.remove(number);
             self.walls.remove(number);
             self.note(number);
+            self.arrangement += 1;
             let card = &mut self.cards[number as usize];
             let before = card.slot_there().map(|_| card.mesh);
             card.slot = NONE;
@@ -422,9 +436,16 @@ impl Residents {
         self.version += 1;
         self.stamps[number as usize] = self.version;
         self.changed.push(number);
+        self.recarded.push(number);
+    }
+
+    /// The numbers of all instances, by slots and their parts.
+    pub(crate) fn ordered(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.heads.len() as u32).flat_map(|slot| self.numbers_of(slot))
     }
 
     fn take_number(&mut self) -> u32 {
+        self.arrangement += 1;
         if let Some(card) = self.cards.get_mut(self.free as usize) {
             let number = self.free;
             self.free = std::mem::replace(&mut card.next, NONE);
@@ -434,12 +455,20 @@ impl Residents {
         let card = Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, details: 0, next: NONE };
         self.cards.push(card);
         self.instances.push(bytemuck::Zeroable::zeroed());
+        self.grains.push(Grain::default());
         self.stamps.push(0);
         self.cards.len() as u32 - 1
     }
 }
 
 impl Card {
+    /// One that is drawn at every level of detail.
+    #[cfg(test)]
+    pub(crate) const fn of(mesh: Drawn) -> Self {
+        let details = crate::look::Detail::EVERY;
+        Self { mesh, slot: 0, part: 0, casts: true, mobile: false, details, next: NONE }
+    }
+
     /// The slot of who has this number now, if anybody does.
     pub(crate) const fn slot_there(&self) -> Option<u32> {
         if self.slot == NONE { None } else { Some(self.slot) }
@@ -448,32 +477,4 @@ impl Card {
 
 fn is_closed(mesh: Drawn) -> bool {
     matches!(mesh, Drawn::Own(mesh) if mesh.closed().is_some())
-}
-
-/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them; links may reach farther, and so may what a rig moves.
-fn ball_of(entity: &EntityRef<'_>, scene: &dyn Scene) -> Ball {
-    let (center, half) = (entity.bounds.center(), entity.bounds.half_extents().norm());
-    let aside = (entity.position() - center).norm();
-    let of_links = scene.links(entity.id).map_or(0.0, |links| links.radius() + aside);
-    let of_rig = entity
-        .info
-        .asset
-        .and_then(|id| rig_radius(entity, model_of(scene, id)?))
-        .map_or(0.0, |far| far + aside);
-    Ball { center, radius: (half + overhang(entity.kind)).max(of_links).max(of_rig) }
-}
-
-/// How far the rig of its model may lead from the origin of an entity, m, whatever it plays.
-fn rig_radius(entity: &EntityRef<'_>, (asset, model): (&Asset, &Arc<Model>)) -> Option<f64> {
-    let [low, high] = model.rig.as_ref()?.bounds();
-    let (own, collider) = (entity.info.shape.size(), asset.collider.size());
-    let far = Vector3::from_fn(|axis, _| {
-        f64::from(low[axis].abs().max(high[axis].abs())) * own[axis] / collider[axis]
-    });
-    Some(far.norm())
-}
-
-/// Whether it throws a shadow that one would miss; surfaces lie flat.
-fn casts(kind: EntityKind) -> bool {
-    !matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
 }

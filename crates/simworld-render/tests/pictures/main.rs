@@ -32,3 +32,4 @@ mod scans_meet_the_solids;
 mod sensors_conform;
 mod streets_are_painted_by_their_lanes;
 mod two_sides;
+mod who_culls_changes_nothing;
