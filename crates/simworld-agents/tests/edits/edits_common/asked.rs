@@ -4,7 +4,7 @@ use crate::tables::lines_of;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 23] = [
+const SETS: [&str; 25] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -28,6 +28,8 @@ const SETS: [&str; 23] = [
     "twentyfirst.edits",
     "twentysecond.edits",
     "twentythird.edits",
+    "twentyfourth.edits",
+    "twentyfifth.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
