@@ -48,7 +48,7 @@ pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
 
 /// What is asked in a city by ourselves, of which all is to be right.
 pub(crate) fn taught_in(city: &str) -> Vec<Asked> {
-    asked_in_set(city, "own.edits")
+    ["own.edits", "own.later.edits"].into_iter().flat_map(|set| asked_in_set(city, set)).collect()
 }
 
 fn asked_in_set(city: &str, set: &'static str) -> Vec<Asked> {
