@@ -74,6 +74,7 @@ impl SceneEditor {
                 from: Point2::origin(),
                 who: None,
                 beside: None,
+                made: Vec::new(),
                 it: None,
                 place: None,
                 roads: Vec::new(),
@@ -260,9 +261,16 @@ impl SceneEditor {
 /// Works out one wish of a sentence in the scene as it is by now, and carries it out.
 fn carry_out(reading: &Reading, index: usize, applier: &mut Applier<'_>) -> Result<(), EditError> {
     let focus = applier.focus.clone();
+    let made_before = applier.edited.made.len();
     for edit in reading.resolve(index, applier.scene.world(), applier.stock, &focus)? {
         applier.apply(&edit)?;
+        if matches!(edit, Edit::Move { .. } | Edit::Remove { .. } | Edit::Swap { .. }) {
+            applier.focus.made.clear();
+        }
         applier.edited.edits.push(edit);
+    }
+    if applier.edited.made.len() > made_before {
+        applier.focus.made = applier.edited.made[made_before..].to_vec();
     }
     Ok(())
 }

@@ -58,6 +58,42 @@ fn new_things_are_as_tall_as_they_are_told_to_be() {
 }
 
 #[test]
+fn new_things_are_as_large_as_others_are() {
+    for (words, wanted) in [
+        ("put a statue as tall as the museum next to the kiosk", 10.0),
+        ("add a flagpole that is twice as tall as the statue in front of the school", 8.0),
+        ("plant an oak half as high as the hospital behind the bakery", 7.0),
+    ] {
+        let (_, world, outcome) = said(words);
+        let made = outcome.unwrap_or_else(|error| panic!("{words}: {error}")).made;
+        let height = world.entity(made[0]).expect("it was made").info.shape.size().z;
+        assert!((height - wanted).abs() < 1e-6, "{words}: {height} m for {wanted}");
+    }
+}
+
+#[test]
+fn new_things_are_spoken_of_as_them() {
+    let (_, world, outcome) = said("add two benches in the park and a bin between them");
+    let made = outcome.expect("it is understood").made;
+    let at = |index: usize| world.entity(made[index]).expect("it was made").planar();
+    let (one, other, bin) = (at(0), at(1), at(2));
+    let around = (one - bin).norm() + (other - bin).norm();
+    assert!(around < 1.5 * (one - other).norm(), "{bin} is not between {one} and {other}");
+    let (_, _, outcome) = said("add two students near the statue and turn them towards the museum");
+    assert_eq!(outcome.expect("it is understood").edits.len(), 2);
+}
+
+#[test]
+fn most_of_several_are_more_than_half_of_them() {
+    let (city, world, outcome) = said("remove most of the street lamps");
+    outcome.expect("two of three are most");
+    let left = ["lamp_1", "lamp_2", "lamp_3"].iter().filter(|lamp| world.entity(city.ids[**lamp]).is_some());
+    assert_eq!(left.count(), 1);
+    let (_, _, outcome) = said("remove most of the cars");
+    assert!(outcome.is_err(), "of two there is no most");
+}
+
+#[test]
 fn steps_lead_towards_a_thing_and_away_from_it() {
     let fountain = Point2::new(150.0, 42.0);
     for (words, key, nearer) in [

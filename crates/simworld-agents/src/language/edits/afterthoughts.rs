@@ -4,6 +4,7 @@
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
+use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
 use super::polite::CODA;
@@ -132,6 +133,11 @@ fn said_once_more(lexemes: &mut Vec<Lexeme>) {
         let clause = sentence_before(lexemes, mark);
         let mut articles = (clause..mark).filter(|at| is_word(&lexemes[*at], &["a", "an"]));
         let article = articles.next().filter(|_| is_of_it && articles.next().is_none())?;
+        // "A red car, no, a blue one": what has a colour already gets no second.
+        let paint = |from: usize, to: usize| (from..to).any(|at| longest(&lexemes[at..to], PAINTS).is_some());
+        if paint(from, one) && paint(article, mark) {
+            return None;
+        }
         Some((mark, one + 1, article, said.to_vec()))
     });
     let Some((mark, to, article, mut said)) = found else { return };

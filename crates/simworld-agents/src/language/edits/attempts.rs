@@ -8,7 +8,7 @@ use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::longest_phrase;
 use super::memo::Memo;
-use super::parse::Reader;
+use super::parse::{Reader, UNDERSTOOD};
 use super::parts::Telling;
 use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
@@ -54,6 +54,9 @@ struct Attempts<'a> {
 
 impl Attempts<'_> {
     fn wishes(&self) -> Result<Wishes, PlanError> {
+        if self.asks_how_to() {
+            return Err(self.reader.not_understood(UNDERSTOOD));
+        }
         let plain = plainly(&self.reader);
         if plain.as_ref().is_ok_and(|wishes| self.holds(wishes)) {
             return plain;
@@ -78,6 +81,15 @@ impl Attempts<'_> {
             Some(answer) => answer,
             None => self.at_last(plain, in_parts),
         }
+    }
+
+    /// "How do I get a wine stain out of a shirt?": a question that names nothing of the scene.
+    fn asks_how_to(&self) -> bool {
+        #[rustfmt::skip]
+        const HOW_TO: &[&str] = &["how do i", "how do you", "how do we", "how do they", "how does one", "how does a", "how does the", "how did", "how can i", "how can you", "how can one", "how would i", "how would you", "how would one", "how should i", "how to", "how could i",
+            "whats the best way to", "what is the best way to", "whats the easiest way to", "what is the easiest way to", "whats the quickest way to", "what is the quickest way to"];
+        let lexemes = self.reader.lexemes;
+        longest_phrase(lexemes, HOW_TO).is_some() && self.reader.names_nothing(0, lexemes.len())
     }
 
     fn in_parts(&self, reader: &Reader<'_>, telling: Telling) -> Option<Wishes> {

@@ -13,7 +13,7 @@ use super::words::WAYS;
 
 /// Sounds and words behind dots, before what is meant.
 #[rustfmt::skip]
-const SOUNDS: &Phrases = &Phrases::of(&["er", "erm", "um", "uh", "hmm", "hm", "err", "no", "no wait", "wait", "wait no", "i mean", "i meant", "make it", "make that", "no make it", "no make that", "well", "or rather", "or", "rather", "sorry", "no sorry", "actually", "no actually", "oh", "oh no", "no no", "ah", "just", "ok just", "let me think", "let me see", "lets say", "at least", "thats"]);
+const SOUNDS: &Phrases = &Phrases::of(&["er", "erm", "um", "uh", "hmm", "hm", "err", "no", "no wait", "wait", "wait no", "i mean", "i meant", "make it", "make that", "no make it", "no make that", "well", "or rather", "or", "rather", "sorry", "no sorry", "actually", "no actually", "oh", "oh no", "no no", "ah", "just", "ok just", "let me think", "let me see", "lets say", "at least", "thats", "hang on", "hold on", "whats the word", "what is the word", "what was the word", "what was it", "what is it", "whats it called", "what are they called", "what do you call it", "what do you call them", "what do they call it", "how do you say", "whats the name", "what was it called", "you know", "you know the thing", "let me see now", "oh what was it", "now what was it", "one of those", "thingy", "whatsit", "just kidding", "only kidding", "just joking", "only joking", "kidding"]);
 /// Before a noun, and no part of its name.
 const DETERMINERS: &Phrases = &Phrases::of(&[
     "a",
@@ -30,6 +30,7 @@ const DETERMINERS: &Phrases = &Phrases::of(&[
 
 /// Puts commas for dashes, and takes out what was broken off or named again.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
+    super::passing::leave_out_similes(words, lexemes);
     commas_for_dashes(words, lexemes);
     for _ in 0..2 {
         broken_off(lexemes);
@@ -75,12 +76,18 @@ fn broken_off(lexemes: &mut Vec<Lexeme>) {
         let Some(words) = sound else { break };
         meant += words;
     }
-    let from = new_before(lexemes, mark);
+    let from = new_before(lexemes, mark).or_else(|| article_before(lexemes, mark));
+    if let Some(from) = from
+        && let Some(end) = forgotten(lexemes, meant)
+    {
+        forget(lexemes, from, end);
+        return;
+    }
     let counted = |at: usize| longest_phrase(&lexemes[at..], DETERMINERS).or(number(&lexemes[at..]));
     match from {
         // "A well... a bird bath", "half a dozen lobster... wooden barrels".
         Some(from) if meant < lexemes.len() => {
-            let number = counted(from).unwrap_or(1);
+            let number = counted(from).unwrap_or(1).min(mark - from);
             let is_plain = !is_mark(&lexemes[meant])
                 && longest(&lexemes[meant..], &WAYS).is_none()
                 && longest(&lexemes[meant..], &super::words::VERBS).is_none();
@@ -99,6 +106,41 @@ fn broken_off(lexemes: &mut Vec<Lexeme>) {
         }
         _ => one_mark(lexemes, mark, end),
     }
+}
+
+/// "A gas... no, forget the gas, a barbecue": where that ends which takes back what was broken off.
+fn forgotten(lexemes: &[Lexeme], at: usize) -> Option<usize> {
+    const FORGETS: &[&str] = &["forget", "skip", "scratch", "never mind", "not", "no need for", "leave out"];
+    let from = at + longest_phrase(lexemes.get(at..)?, FORGETS)?;
+    let what = from + longest_phrase(&lexemes[from..], &["the", "that", "this", "a", "an", "about the"])?;
+    let end = (what..lexemes.len()).find(|at| is_mark(&lexemes[*at])).unwrap_or(lexemes.len());
+    ((1..=3).contains(&(end - what))).then_some(end)
+}
+
+/// Takes out what was broken off and the words that take it back; what is meant instead takes its place.
+fn forget(lexemes: &mut Vec<Lexeme>, from: usize, end: usize) {
+    let is_and = |at: usize| matches!(&lexemes[at].token, Token::Word(word) if word == "and");
+    let meant = end + lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+    let is_new =
+        longest_phrase(&lexemes[meant..], DETERMINERS).is_some() || number(&lexemes[meant..]).is_some();
+    if is_new {
+        lexemes.drain(from..meant);
+        return;
+    }
+    let mut start = from;
+    while start > 0 && (is_and(start - 1) || is_mark(&lexemes[start - 1])) {
+        start -= 1;
+    }
+    // With nothing before it there is nothing else that is asked for.
+    if start > 0 {
+        lexemes.drain(start..end);
+    }
+}
+
+/// "What about a...": the article at which somebody breaks off.
+fn article_before(lexemes: &[Lexeme], mark: usize) -> Option<usize> {
+    let from = mark.checked_sub(1)?;
+    longest_phrase(&lexemes[from..mark], &["a", "an", "some", "another"]).map(|_| from)
 }
 
 /// One mark for the dots.
@@ -188,7 +230,9 @@ fn again_at(lexemes: &[Lexeme], mark: usize) -> Option<(usize, usize, Vec<Lexeme
     let name = lexemes
         .get(begin..end)
         .filter(|name| (2..=3).contains(&name.len()) || name.len() == 1 && is_kind(name))?;
-    let all_words = name.iter().all(|word| matches!(word.token, Token::Word(_)));
+    // "A van, forget the van" names nothing again.
+    let is_small = |word: &Lexeme| matches!(&word.token, Token::Word(word) if ["the", "that", "this", "it", "no", "not", "forget"].contains(&word.as_str()));
+    let all_words = name.iter().all(|word| matches!(word.token, Token::Word(_)) && !is_small(word));
     let head = if name.len() == 1 { "tree" } else { head_of(name.last()?)? };
     let sentence =
         lexemes[..mark].iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);

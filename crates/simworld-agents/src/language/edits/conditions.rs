@@ -86,7 +86,7 @@ impl Reader<'_> {
             many: false,
             paint: what.traits.paint,
             scale: 1.0,
-            height: None,
+            size: None,
             name: None,
         };
         self.at = end;

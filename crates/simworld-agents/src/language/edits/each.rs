@@ -47,7 +47,7 @@ impl Finder<'_> {
         let ends = road.and_then(|road| Some((*road.centerline.first()?, *road.centerline.last()?)));
         let Some((from, to)) = ends.filter(|_| thing.count <= 2 && !thing.many) else { return Ok(None) };
         let aside = heading(&(to - from)) + std::f64::consts::FRAC_PI_2;
-        let make = thing.make(self.stock)?;
+        let make = self.made(thing)?;
         let side = |heading: f64| {
             let stands = vec![
                 Stand::AlongRoad { roads: roads.to_vec() },
@@ -58,19 +58,29 @@ impl Finder<'_> {
         Ok(Some(vec![side(aside), side(aside + std::f64::consts::PI)]))
     }
 
+    /// The new things that "them" stands for, where several were made.
+    pub(super) fn made_as(&self, reference: &Reference) -> Option<&[EntityId]> {
+        let made = self.focus.made.as_slice();
+        let are_there = made.iter().all(|id| self.scene.entity(*id).is_some());
+        (reference.target == Target::Them && made.len() > 1 && are_there).then_some(made)
+    }
+
     /// "A tree in front of each house": the same for every one of them.
     pub(super) fn at_each(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Vec<Edit>>, EditError> {
         let is_each = |place: &Where| match place.anchor() {
             Some(Anchor::Thing(anchor)) => {
                 let several = anchor.count == Count::All && anchor.choice == Choice::Open;
-                several && !matches!(place, Where::Between(..)) && anchor.target != Target::Them
+                several
+                    && !matches!(place, Where::Between(..))
+                    && (anchor.target != Target::Them || self.made_as(&anchor).is_some())
             }
             _ => false,
         };
         let [place] = at else { return Ok(None) };
         let Some(Anchor::Thing(anchor)) = place.anchor().filter(|_| is_each(place)) else { return Ok(None) };
         let mut edits = Vec::new();
-        for id in self.candidates(&anchor)? {
+        let all = self.made_as(&anchor).map(<[EntityId]>::to_vec);
+        for id in all.map_or_else(|| self.candidates(&anchor), Ok)? {
             let mut place = place.clone();
             if let Some(anchor) = place.anchor_mut() {
                 *anchor = Anchor::Thing(Reference::to(Target::Id(id), id.to_string()));
@@ -91,7 +101,7 @@ impl Finder<'_> {
         let each = what.count == Count::All;
         let things =
             if with.many && plural(what) || each { self.candidates(what)? } else { vec![self.one(what)?] };
-        let make = with.make(self.stock)?;
+        let make = self.made(with)?;
         let mut edits = Vec::new();
         for thing in things {
             let stands = vec![Stand::At { point: self.entity(thing, what)?.planar() }];

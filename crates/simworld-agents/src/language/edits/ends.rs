@@ -149,7 +149,7 @@ impl Finder<'_> {
         let mut edits = Vec::new();
         for point in self.ends_of(roads, name)? {
             let stands = vec![Stand::AlongRoad { roads: roads.to_vec() }, Stand::Around { point }];
-            edits.push(Edit::Add { make: thing.make(self.stock)?, count: thing.count, stands });
+            edits.push(Edit::Add { make: self.made(&thing)?, count: thing.count, stands });
         }
         Ok(edits)
     }

@@ -118,7 +118,7 @@ impl Finder<'_> {
                 });
             }
         };
-        Ok(Edit::Row { make: thing.make(self.stock)?, line, spacing })
+        Ok(Edit::Row { make: self.made(thing)?, line, spacing })
     }
 
     // ---- conditions ----

@@ -4,13 +4,14 @@ use simworld_core::geometry::Vector3;
 use simworld_core::id::EntityId;
 
 use super::super::clause::Reference;
+use super::super::lexer::is_mark;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
-use crate::editing::{Edit, EditError, Stock};
+use crate::editing::{Edit, EditError, Make, Stock};
 
 /// Which way something is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +75,20 @@ const TIMES: &[(&[&str], f64)] = &[
     (&["twice", "double", "two times"], 2.0), (&["three times", "triple", "thrice"], 3.0), (&["four times"], 4.0), (&["half", "half of"], 0.5),
     (&["a third", "one third", "a third of"], 1.0 / 3.0), (&["a quarter", "one quarter", "a quarter of"], 0.25), (&["one and a half times"], 1.5),
 ];
+/// Between a new thing and its size by another's.
+const THAT_IS: &Phrases = &Phrases::of(&[
+    "that is",
+    "which is",
+    "thats",
+    "that are",
+    "which are",
+    "exactly",
+    "of exactly",
+    "that should be",
+    "with",
+    "about",
+    "just",
+]);
 /// What says nothing before a size.
 #[rustfmt::skip]
 const SMALL: &Phrases = &Phrases::of(&["to", "to be", "be", "exactly", "about", "roughly", "just", "up to", "down to", "until it is", "so that it is", "so it is", "nearly", "almost", "to become", "become", "at", "of",
@@ -149,17 +164,49 @@ impl Reader<'_> {
         })
     }
 
-    /// How tall a new thing is to be, "six metres tall" or "with a height of six metres", and how many words say so.
-    pub(super) fn new_height(&self, end: usize) -> Option<(f64, usize)> {
+    /// How large a new thing is to be, "six metres tall", "with a height of six metres" or, behind its noun, "as tall as the lab", and how
+    /// many words say so.
+    pub(super) fn new_size(&self, is_first: bool, end: usize) -> Option<(Size, usize)> {
         let rest = self.rest(end);
         let with = longest_phrase(rest, &["with a height of", "of a height of", "with the height of"]);
-        if let Some(words) = with {
-            let (metres, count) = numbers::length(&rest[words..])?;
-            return Some((metres, words + count));
+        if let Some(words) = with
+            && let Some((metres, count)) = numbers::length(&rest[words..])
+        {
+            return Some((Size::Metres(Extent::Height, metres), words + count));
         }
-        let (metres, words) = numbers::length(rest)?;
-        let tall = longest_phrase(&rest[words..], &["tall", "high", "in height"])?;
-        Some((metres, words + tall))
+        if let Some((metres, words)) = numbers::length(rest)
+            && let Some(tall) = longest_phrase(&rest[words..], &["tall", "high", "in height"])
+        {
+            return Some((Size::Metres(Extent::Height, metres), words + tall));
+        }
+        if is_first {
+            return None;
+        }
+        let that_is = longest_phrase(rest, THAT_IS).unwrap_or(0);
+        self.new_size_like(self.at + that_is, end).map(|(size, words)| (size, that_is + words))
+    }
+
+    /// "As tall as the lab", up to where the new thing stands: the lab is named by its shortest name.
+    fn new_size_like(&self, at: usize, end: usize) -> Option<(Size, usize)> {
+        let stop = self.before_politeness(at, end);
+        let ends = |cut: &usize| {
+            *cut == stop
+                || is_mark(&self.lexemes[*cut])
+                || self.is_place(*cut)
+                || super::parse::joint(&self.lexemes[*cut..stop]).is_some()
+        };
+        let is_said = |from: usize| {
+            longest(&self.lexemes[from..stop], LIKE).is_some()
+                || longest(&self.lexemes[from..stop], TIMES)
+                    .is_some_and(|(_, words)| longest(&self.lexemes[from + words..stop], LIKE).is_some())
+        };
+        if at >= stop || !is_said(at) {
+            return None;
+        }
+        (at + 2..=stop)
+            .filter(ends)
+            .find_map(|cut| self.like_another(at, cut).map(|size| (size, cut - self.at)))
+            .map(|(size, words)| (size, words - (at - self.at)))
     }
 }
 
@@ -262,12 +309,21 @@ impl Extent {
     }
 }
 
+impl Finder<'_> {
+    /// What is to be made, as large as the thing is now that its size was told by.
+    pub(super) fn made(&self, thing: &NewThing) -> Result<Make, EditError> {
+        let Some(Size::Like(extent, times, other)) = &thing.size else { return thing.make(self.stock) };
+        let metres = self.extent_of(self.one(other)?, *extent) * times;
+        NewThing { size: Some(Size::Metres(*extent, metres)), ..thing.clone() }.make(self.stock)
+    }
+}
+
 impl NewThing {
     /// Over its asset's size, where so many metres were asked for.
     pub(super) fn scale_of(&self, asset: &str, scale: f64, stock: &Stock) -> f64 {
         let found = stock.catalogue.find(asset).and_then(|id| stock.catalogue.get(id));
-        match (self.height, found) {
-            (Some(metres), Some(asset)) => metres / asset.collider.size().z,
+        match (&self.size, found) {
+            (Some(Size::Metres(extent, metres)), Some(asset)) => metres / extent.of(asset.collider.size()),
             _ => scale,
         }
     }

@@ -29,6 +29,7 @@ mod given;
 mod goodbye;
 mod ground;
 mod idle;
+mod likened;
 mod make;
 mod measures;
 mod memo;
@@ -60,12 +61,14 @@ mod resolve;
 mod respelt;
 mod retold;
 mod rows;
+mod sayings;
 mod says;
 mod shared;
 mod shares;
 mod sizes;
 pub(super) mod sky;
 mod slips;
+mod spared;
 mod spoken;
 mod standing;
 mod stated;
@@ -108,6 +111,8 @@ pub(crate) struct Focus {
     pub(crate) it: Option<EntityId>,
     /// What that was put beside, if it was.
     pub(crate) beside: Option<EntityId>,
+    /// What the last wish that made anything made, unless something else was moved or taken away since: "them".
+    pub(crate) made: Vec<EntityId>,
     /// What "there" stands for.
     pub(crate) place: Option<Point2>,
     /// The streets that were spoken of last.
@@ -150,6 +155,7 @@ pub(crate) fn read(
     doubted::in_plain_words(&mut lexemes);
     retold::in_plain_words(&mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
+    spared::in_plain_words(&mut lexemes);
     phrased::in_plain_words(words, &mut lexemes, &names);
     narrowed::in_plain_words(&mut lexemes);
     plain::in_plain_words(words, &mut lexemes, &names);
@@ -388,6 +394,9 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(told::words())
         .chain(doubted::words())
         .chain(phrased::words())
+        .chain(sayings::words())
+        .chain(spared::words())
+        .chain(likened::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -78,7 +78,7 @@ impl Reader<'_> {
             many: false,
             paint: None,
             scale: 1.0,
-            height: None,
+            size: None,
             name: None,
             text: String::new(),
         };
@@ -125,16 +125,16 @@ impl Reader<'_> {
         Ok(thing)
     }
 
-    /// How many new things there are to be, or how tall: how many words say so.
+    /// How many new things there are to be, or how large: how many words say so.
     fn how_many_new(&self, thing: &mut NewThing, end: usize) -> Option<usize> {
         let rest = self.rest(end);
         // "A three-legged stool" is one.
         let is_part = |words: usize| self.words[rest[words - 1].end..].starts_with('-');
-        if let Some((metres, words)) = self.new_height(end) {
-            thing.height = Some(metres);
+        let is_first = thing.words.is_empty();
+        if let Some((size, words)) = self.new_size(is_first, end) {
+            thing.size = Some(size);
             return Some(words);
         }
-        let is_first = thing.words.is_empty();
         if let Some((count, words)) = numbers::count(rest).filter(|(_, words)| is_first && !is_part(*words)) {
             thing.count = count;
             return Some(words);

@@ -151,8 +151,17 @@ impl Reader<'_> {
         let words = |at: usize| &self.lexemes[at.min(end)..end];
         let mut at = at + longest_phrase(words(at), JUNCTIONS)?;
         at += longest_phrase(words(at), &["the"]).unwrap_or(0);
-        let one = streets.in_short(words(at))?;
-        at += one.words;
+        // "Close Elm Street and put a cone where it meets Station Road".
+        let it = longest_phrase(words(at), &["it", "this street", "that street", "the street"]);
+        let said = it.and_then(|words| {
+            let named = (0..at).rev().find_map(|before| streets.at(&self.lexemes[before..at]))?;
+            Some((named, words))
+        });
+        let (one, count) = match said {
+            Some((named, words)) => (named, words),
+            None => streets.in_short(words(at)).map(|one| (one, one.words))?,
+        };
+        at += count;
         at += longest_phrase(words(at), AND)?;
         at += longest_phrase(words(at), &["the"]).unwrap_or(0);
         let other = streets.in_short(words(at))?;

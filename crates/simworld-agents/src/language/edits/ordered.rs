@@ -16,11 +16,32 @@ pub(super) const WHERE_IT_IS: &Phrases = &Phrases::of(&["where it is", "where it
     "in that place", "in that spot", "in this spot", "over there", "in that colour", "in this colour"]);
 
 impl Reader<'_> {
+    /// Behind a verb of moving: what is there goes, and with a verb of bringing comes what is new.
+    pub(super) fn brings(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        // "Bring us the van to the postbox".
+        let for_me = matches!(self.word(self.at), Some("me" | "us"))
+            && self.is_definite(self.at + 1)
+            && (self.at + 2..end).any(|at| self.is_place(at));
+        self.at += usize::from(for_me);
+        if !self.is_definite(self.at)
+            && matches!(self.word(self.at - 1), Some("bring" | "send" | "ship" | "ferry"))
+        {
+            return self.additions(end);
+        }
+        self.moves(end).map(|wish| vec![wish])
+    }
+
     /// "I want a bench", and what else is asked for in such words: a list, what is to come here, a copy, how a thing should be.
     pub(super) fn adds(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         // "Show me the shops" asks for a list.
         if self.is_shown() {
             return self.list(end);
+        }
+        // "Bring us the van to the postbox".
+        let goes_to = |at: usize| self.word(at) == Some("to") && self.is_place(at);
+        let is_for_us = matches!(self.word(self.at - 1), Some("me" | "us")) && self.is_definite(self.at);
+        if is_for_us && (self.at + 2..end).any(goes_to) {
+            return self.moves(end).map(|wish| vec![wish]);
         }
         if self.is_brought(end) {
             let what = self.things(self.at, end)?;

@@ -21,13 +21,35 @@ const NOUNS: &[(&[&str], &Category)] = &[
     (&["furniture", "street furniture", "furnishings", "pieces of furniture"], &FURNITURE),
     (&["plants", "vegetation", "greenery", "plant life", "trees and shrubs", "trees and bushes"], &PLANTS),
 ];
+/// One of any kind, where its colour is told.
+const ONE: &[&str] = &["thing", "object", "item"];
 /// What may stand before such a noun.
 #[rustfmt::skip]
 const BEFORE: &Phrases = &Phrases::of(&["the", "all", "all the", "all of the", "every", "every single", "any", "these", "those", "my", "our", "of"]);
 
 impl Reader<'_> {
+    /// "The red thing": one, of whatever kind.
+    fn one_of_any_kind(&self, start: usize, end: usize) -> Option<Result<Reference, PlanError>> {
+        let the = start + longest_phrase(&self.lexemes[start..end], &["the", "that", "this"])?;
+        let (_, words) = longest(&self.lexemes[the..end], PAINTS)?;
+        let paint = &self.lexemes[the..the + words];
+        let behind = the + words + longest_phrase(&self.lexemes[the + words..end], ONE)?;
+        let place = &self.lexemes[start];
+        let words: Vec<Lexeme> = [word_at(place, "all"), word_at(place, "the")]
+            .into_iter()
+            .chain(paint.iter().cloned())
+            .chain([word_at(place, "objects")])
+            .chain(self.lexemes[behind..end].iter().cloned())
+            .collect();
+        let found = self.of_class(&words, &ALL_THINGS, start, end);
+        Some(found.map(|what| Reference { count: Count::One, ..what }))
+    }
+
     /// Things of several classes, if the words name such.
     pub(super) fn of_any_kind(&self, start: usize, end: usize) -> Option<Result<Reference, PlanError>> {
+        if let Some(one) = self.one_of_any_kind(start, end) {
+            return Some(one);
+        }
         let mut at = start + longest_phrase(&self.lexemes[start..end], BEFORE).unwrap_or(0);
         let before = longest(&self.lexemes[at..end], PAINTS).map(|(_, words)| at..at + words);
         at = before.as_ref().map_or(at, |paint| paint.end);

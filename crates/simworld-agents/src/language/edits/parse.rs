@@ -257,13 +257,7 @@ impl<'a> Reader<'a> {
                 self.copies(end).ok_or_else(|| self.not_understood("say what to copy"))
             }
             Verb::Put => self.put(end),
-            Verb::Move
-                if !self.is_definite(self.at)
-                    && matches!(self.word(self.at - 1), Some("bring" | "send" | "ship" | "ferry")) =>
-            {
-                self.additions(end)
-            }
-            Verb::Move => self.moves(end).map(|wish| vec![wish]),
+            Verb::Move => self.brings(end),
             Verb::Take => self.take(end),
             Verb::Remove => self.removes(end),
             Verb::Replace => self.replace(end),

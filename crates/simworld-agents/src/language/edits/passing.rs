@@ -52,6 +52,46 @@ fn is_passing(words: &[Lexeme]) -> bool {
     leaves_open || is_season || exclaims || longest_phrase(words, NEED_ROOM).is_some()
 }
 
+/// What somebody finds it to be like, behind a comma: "..., like a little queue", "..., as if it were a frog". "Like the red one" says how it
+/// is to be, and "something, like a bench" what is wanted.
+pub(super) fn leave_out_similes(words: &str, lexemes: &mut Vec<Lexeme>) {
+    const LEADS: &[&str] = &[
+        ", like ",
+        ", just like ",
+        ", a bit like ",
+        ", almost like ",
+        ", sort of like ",
+        ", as if ",
+        ", as though ",
+    ];
+    const BEGINS: &[&str] = &[
+        "a ", "an ", "in a ", "in the ", "in an ", "they ", "we ", "some ", "two ", "three ", "four ",
+        "at a ", "on a ", "back ", "it ",
+    ];
+    const OF_THINGS: &Phrases =
+        &Phrases::of(&["one", "ones", "that", "those", "should", "must", "please", "say"]);
+    const OPEN: &Phrases = &Phrases::of(&["something", "anything", "somewhere", "someone", "somebody"]);
+    let lower = words.to_ascii_lowercase();
+    let found = LEADS.iter().find_map(|lead| lower.find(lead).map(|at| (at, at + lead.len(), *lead)));
+    let Some((at, behind, lead)) = found else { return };
+    let is_said = lead.starts_with(", as") || BEGINS.iter().any(|begin| lower[behind..].starts_with(begin));
+    let is_inside = |lexeme: &Lexeme| lexeme.start > at && !is_mark(lexeme);
+    let Some(first) = lexemes.iter().position(is_inside).filter(|first| is_said && *first > 0) else {
+        return;
+    };
+    let end = (first..lexemes.len()).find(|at| is_mark(&lexemes[*at])).unwrap_or(lexemes.len());
+    let any = |from: usize, to: usize, phrases: &Phrases| {
+        (from..to).any(|at| longest_phrase(&lexemes[at..to], phrases).is_some())
+    };
+    if any(first, end, OF_THINGS) || any(0, first, OPEN) {
+        return;
+    }
+    let from = first - usize::from(is_mark(&lexemes[first - 1]));
+    if from > 0 {
+        lexemes.drain(from..end);
+    }
+}
+
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     [ANY, WILL_DO, SEASONS, COMES, NEED_ROOM]
@@ -81,5 +121,17 @@ mod tests {
         assert_eq!(plain("two beds, spring is coming, and a bench"), "two beds and a bench");
         assert_eq!(plain("any car will do"), "any car will do");
         assert_eq!(plain("make it snow, winter is here to stay"), "make it snow winter is here to stay");
+    }
+    #[test]
+    fn what_it_is_like_is_left_out_and_what_it_is_to_be_like_is_not() {
+        let plain = |said: &str| {
+            let mut lexemes = lex(said);
+            leave_out_similes(said, &mut lexemes);
+            super::super::super::lexer::spelt(&lexemes)
+        };
+        assert_eq!(plain("put a man here, like a little queue"), "put a man here");
+        assert_eq!(plain("paint it, as if it were a frog, and go"), "paint it , and go");
+        assert_eq!(plain("paint it, like the red one"), "paint it , like the red one");
+        assert_eq!(plain("add something, like a bench"), "add something , like a bench");
     }
 }

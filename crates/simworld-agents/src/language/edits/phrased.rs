@@ -25,6 +25,7 @@ const TOO_MUCH: &[&str] = &["small", "big", "tall", "short", "large", "high", "l
 
 /// Puts the words so.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+    super::likened::in_plain_words(lexemes);
     told_besides(lexemes);
     of_whom(words, lexemes);
     nearest_to(lexemes, names);
@@ -37,6 +38,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
     nearest_of_place(lexemes);
     both_of_them(lexemes);
     sellers(lexemes);
+    of_one_noun(lexemes);
     let is = |lexeme: &Lexeme, word: &str| matches!(&lexeme.token, Token::Word(own) if own == word);
     let mut at = 1;
     while at + 1 < lexemes.len() {
@@ -340,6 +342,29 @@ fn sellers(lexemes: &mut Vec<Lexeme>) {
         }
         at += 1;
     }
+}
+
+/// "The white and the black car" are the white car and the black car.
+fn of_one_noun(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const WHICH: &[&str] = &["big", "small", "bigger", "smaller", "larger", "tall", "short", "taller", "shorter", "left", "right", "old", "first", "second", "last"];
+    let which = |at: usize| {
+        let rest = lexemes.get(at..).unwrap_or_default();
+        longest(rest, super::super::paint::PAINTS)
+            .map(|(_, words)| words)
+            .or_else(|| longest_phrase(rest, WHICH))
+    };
+    let found = (0..lexemes.len()).find_map(|at| {
+        (word(lexemes, at) == "the").then_some(())?;
+        let and = at + 1 + which(at + 1)?;
+        let is_both = word(lexemes, and) == "and" && word(lexemes, and + 1) == "the";
+        let noun = and + 2 + which(and + 2).filter(|_| is_both)?;
+        let (_, words) = category(&lexemes[noun..])?;
+        Some((and, noun..noun + words))
+    });
+    let Some((and, noun)) = found else { return };
+    let noun = lexemes[noun].to_vec();
+    lexemes.splice(and..and, noun);
 }
 
 /// "By his side" is next to him.

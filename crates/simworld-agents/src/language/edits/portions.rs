@@ -3,7 +3,7 @@
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Choice, Count, Reference, Target};
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::super::resolve::Purpose;
@@ -18,6 +18,16 @@ const SHARES: &[(&[&str], f64)] = &[
     (&["a quarter of", "one quarter of", "a quarter of all", "a fourth of"], 0.25),
     (&["three quarters of", "three quarters of all"], 0.75),
 ];
+/// More than half of several things, and no share of them.
+const MOST: &[&str] = &[
+    "most of",
+    "most",
+    "the majority of",
+    "more than half of",
+    "most of all",
+    "the greater part of",
+    "the better part of",
+];
 /// Behind "as many", of what there are so many.
 #[rustfmt::skip]
 const AS_THERE_ARE: &Phrases = &Phrases::of(&["as there are", "as we have", "as there", "as you see", "as the number of", "as you can see", "as we see", "as there already are", "as there are already", "as we have got"]);
@@ -25,14 +35,20 @@ const AS_THERE_ARE: &Phrases = &Phrases::of(&["as there are", "as we have", "as 
 impl Reader<'_> {
     /// "Half of the cars": any of them, if that makes a whole number.
     pub(super) fn share_of(&self, start: usize, end: usize) -> Option<Result<Reference, PlanError>> {
-        let (share, words) = longest(self.lexemes.get(start..end)?, SHARES)?;
+        let rest = self.lexemes.get(start..end)?;
+        let most = longest_phrase(rest, MOST);
+        let (share, words) = most.map(|words| (0.5, words)).or_else(|| longest(rest, SHARES))?;
         let from = start + words;
-        if !self.is_certain(from) {
+        // "Most lamps", and "half of the lamps".
+        if !self.is_certain(from) && (most.is_none() || rest.get(words).is_none_or(is_mark)) {
             return None;
         }
         let what = self.one_of(from, end).ok().filter(super::resolve::plural)?;
-        let number = self.how_many(&what) as f64 * share;
-        if (number - number.round()).abs() > 1e-6 || number < 0.5 {
+        let all = self.how_many(&what);
+        // As many as are more than half; of two that is no part.
+        let number = if most.is_some() { (all / 2 + 1) as f64 } else { all as f64 * share };
+        let is_part = most.is_none() || all > 2;
+        if (number - number.round()).abs() > 1e-6 || number < 0.5 || !is_part {
             return Some(Err(self.not_understood("say how many of them")));
         }
         let text = self.written(start, end);
@@ -95,5 +111,5 @@ impl Reader<'_> {
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     let shares = SHARES.iter().flat_map(|(words, _)| *words);
-    shares.chain(AS_THERE_ARE).flat_map(|phrase| phrase.split(' '))
+    shares.chain(MOST).chain(AS_THERE_ARE).flat_map(|phrase| phrase.split(' '))
 }

@@ -74,7 +74,7 @@ impl Reader<'_> {
     /// Whether some words ask for nothing.
     pub(super) fn is_remark(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
-        if self.orders_within(from, end) || self.goes_on_within(from, end) {
+        if self.orders_within(from, end) || self.goes_on_within(from, end) || self.is_old_place(from, end) {
             return false;
         }
         if self.is_enough(from, end)
@@ -128,6 +128,11 @@ impl Reader<'_> {
                     },
                 )
         })
+    }
+
+    /// "Where the white one stood" is a place, and no reason.
+    fn is_old_place(&self, from: usize, end: usize) -> bool {
+        self.word(from) == Some("where") && self.stood(from).is_some_and(|(_, stop)| stop >= end)
     }
 
     /// "Oh dear": sounds and greetings.

@@ -16,7 +16,7 @@ use super::words::{SKIES, VERBS, WAYS, Way};
 const TAKEN_BACK: &Phrases = &Phrases::of(&["no wait", "wait no", "no no", "no sorry", "sorry no", "i mean", "i meant", "no i mean", "no i meant", "sorry i mean", "scratch that", "correction", "no make that",
     "make that", "or rather", "no rather", "oh no", "wait", "no make it", "ok fine", "okay fine", "ok just", "or better", "no better", "better still", "no actually", "actually no",
     "actually make that", "or no", "no not that one", "well i mean", "on second thought", "on second thoughts", "nope", "not that", "oops", "rather", "that is to say", "or simply", "or just", "well ok", "lets say", "let us say",
-    "let me say", "say", "shall we say", "or lets say", "no", "well", "sorry", "actually", "ah no", "hang on", "hold on", "no hang on", "no hold on", "sorry make that", "meaning", "strike that", "err", "er"]);
+    "let me say", "say", "shall we say", "or lets say", "no", "well", "sorry", "actually", "ah no", "hang on", "hold on", "no hang on", "no hold on", "sorry make that", "meaning", "strike that", "err", "er", "or actually", "or actually make it", "or actually make that", "actually make it", "or make it", "or make that", "or rather make it", "or rather make that"]);
 /// Behind what is meant.
 const BEHIND: &[&str] = &["i mean", "i meant", "i should say", "rather"];
 /// Of the words that take back, those that are also said where nothing is: no order and no thing is taken back by them.
@@ -97,10 +97,11 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
         }
         let mut from = from + words;
         from += lexemes[from..].iter().take_while(|lexeme| is_mark(lexeme)).count();
-        // "Sorry, I meant the black one".
-        if let Some(words) = longest_phrase(&lexemes[from..], &["i mean", "i meant", "make that", "rather"]) {
-            is_sure = true;
+        // "Sorry, I meant the black one", "no, hang on, make that a blue one".
+        while let Some(words) = said_again(&lexemes[from..]) {
+            is_sure |= longest_phrase(&lexemes[from..], WEAK) != Some(words);
             from += words;
+            from += lexemes[from..].iter().take_while(|lexeme| is_mark(lexeme)).count();
         }
         // "No, the other one, the blue one": the last of them says which.
         if let Some(words) = longest_phrase(&lexemes[from..], &["the other one", "the other", "another one"])
@@ -126,6 +127,12 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     right.extend_from_slice(&before[stop..]);
     right.extend_from_slice(&lexemes[behind..]);
     Some(right)
+}
+
+/// How many words say once more that something is taken back, before what is meant.
+fn said_again(rest: &[Lexeme]) -> Option<usize> {
+    let meant = longest_phrase(rest, &["i mean", "i meant", "make that", "rather"]);
+    meant.or_else(|| longest_phrase(rest, TAKEN_BACK).filter(|words| rest.get(*words).is_some_and(is_mark)))
 }
 
 /// Which of the words before are taken back by those that are meant.
@@ -191,7 +198,16 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
 
 /// "The black one" in the place of the white car is the black car.
 fn with_its_noun(meant: &[Lexeme], instead_of: &[Lexeme]) -> Vec<Lexeme> {
-    let noun = (0..instead_of.len()).find(|at| category(&instead_of[*at..]).is_some());
+    // "A red car" is told by its noun, and not by the colour that is taken back.
+    let is_noun =
+        |at: &usize| category(&instead_of[*at..]).is_some() && longest(&instead_of[*at..], PAINTS).is_none();
+    // "A white tent": behind its colour.
+    let behind_paint = || {
+        let paint = (0..instead_of.len())
+            .find_map(|at| longest(&instead_of[at..], PAINTS).map(|(_, words)| at + words));
+        paint.filter(|at| *at + 1 == instead_of.len())
+    };
+    let noun = (0..instead_of.len()).find(is_noun).or_else(behind_paint);
     match (meant, noun) {
         ([head @ .., one], Some(noun)) if one.token == Token::Word("one".to_owned()) && !head.is_empty() => {
             head.iter().chain(&instead_of[noun..]).cloned().collect()

@@ -108,7 +108,12 @@ impl Finder<'_> {
     }
 
     fn facing(&self, what: &[Reference], towards: &Reference) -> Result<Edit, EditError> {
-        let (things, towards) = (self.all(what)?, self.one(towards)?);
+        let things = self.all(what)?;
+        // "Get Rex to look at me": who speaks is looked at, and stays as they are.
+        if let (Target::Here, Some(who)) = (&towards.target, self.focus.who) {
+            return Ok(Edit::Face { things, towards: who });
+        }
+        let towards = self.one(towards)?;
         // "Move Fay next to Gus and make her face him": nobody faces themselves.
         let other = self.focus.beside.filter(|_| things == [towards]);
         Ok(Edit::Face { things, towards: other.unwrap_or(towards) })
@@ -164,7 +169,7 @@ impl Finder<'_> {
         }
         let stands = self.stands(at, &[])?;
         let add = |thing: &NewThing| {
-            let make = thing.make(self.stock)?;
+            let make = self.made(thing)?;
             // "Stairs" are one thing.
             let is_one = thing.words.last().is_some_and(|word| make.asset.ends_with(word.as_str()));
             let count = if thing.many && !is_one { super::ground::ROW } else { thing.count };
@@ -265,7 +270,9 @@ impl Finder<'_> {
     pub(super) fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
         let mut things = Vec::new();
         for one in what {
-            if one.count == Count::One && (!plural(one) || is_of_several(one)) {
+            if let Some(made) = self.made_as(one) {
+                things.extend_from_slice(made);
+            } else if one.count == Count::One && (!plural(one) || is_of_several(one)) {
                 things.push(self.one(one)?);
             } else {
                 things.extend(self.candidates(one)?);

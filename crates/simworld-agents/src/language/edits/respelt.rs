@@ -57,6 +57,8 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["bin it", "chuck it out", "throw it out", "toss it out", "chuck it away", "chuck it", "ditch it", "scrap it", "bin that", "chuck that", "ditch that"], "remove it"), (&["bin them", "chuck them", "ditch them", "scrap them"], "remove them"), (&["if there happens to be", "if there should be", "if there happen to be"], "if there is"),
     (&["is it possible that you", "would it be possible that you"], "could you"),
     (&["it gives"], "there is"), (&["in direction"], "to the"), (&["hold on to"], "keep"),
+    (&["half as big again", "half again as big", "half as large again", "half again as large", "half as tall again", "half again as tall"], "half bigger"), (&["remove of"], "remove"), (&["delete of"], "delete"),
+    (&["me please"], "me"), (&["us please"], "us"), (&["goes by the name of", "go by the name"], "should be called"),
     (&["likes of"], ""), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why", "which is exactly why", "thats exactly why", "which is precisely why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
 ];
 
@@ -69,6 +71,8 @@ pub(super) fn in_plain_spelling(words: &str, lexemes: &mut Vec<Lexeme>) {
             let is_new =
                 || longest_phrase(&lexemes[at + count..], &["a", "an", "one", "some", "also"]).is_some();
             !is_name(words, lexemes, at)
+                // "The whit car" is white, and "whit is that" asks what.
+                && (*plain != "what" || at == 0 || longest_phrase(&lexemes[at - 1..], &["the", "that", "a"]).is_none())
                 // "The person who stands closest to it" asks nothing.
                 && (!["list people", "who is the person nearest to"].contains(plain) || at == 0)
                 && (*plain != "place" || is_new() || numbers::count(&lexemes[at + count..]).is_some())

@@ -5,11 +5,13 @@
 //! refused. No clause is left out that asks for something by itself, denies something, or that a pronoun of the rest may be about.
 
 use super::super::lexer::{Lexeme, Token, is_mark};
-use super::super::lexicon::{longest, longest_phrase};
+use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
 use super::parse::Reader;
+use super::polite::CODA;
+use super::sayings::SAYINGS;
 use super::turns::{ASIDES, BEFORE_ALL, FILLERS, TURNS};
 use super::words::VERBS;
 
@@ -17,6 +19,12 @@ use super::words::VERBS;
 fn without_occasion(lexemes: &mut Vec<Lexeme>) {
     const HAVING: &Phrases = &Phrases::of(&[
         "were having a",
+        "we are throwing a",
+        "we are planning a",
+        "i am throwing a",
+        "i am planning a",
+        "they are having a",
+        "they are throwing a",
         "we are having a",
         "im having a",
         "i am having a",
@@ -46,7 +54,7 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
     }
-    *lexemes = told_by(lexemes, BEFORE_ALL);
+    *lexemes = told_by(lexemes, &[BEFORE_ALL]);
 }
 
 /// What begins a clause that says why or what for, behind a request.
@@ -75,12 +83,12 @@ const REQUESTS: &Phrases = &Phrases::of(&["can", "could", "would", "will", "may"
 impl Reader<'_> {
     /// The words told otherwise, in all ways that differ from how they were said, the nearest first.
     pub(super) fn retold(&self) -> Vec<Vec<Lexeme>> {
-        let turned = told_by(&without(&without(self.lexemes, FILLERS), ASIDES), TURNS);
-        let without_why = told_by(&self.without_why(&turned), TURNS);
-        let requests = told_by(&self.requests(&without_why), TURNS);
+        let turned = told_plainly(&without(&without(self.lexemes, FILLERS), ASIDES));
+        let without_why = told_plainly(&self.without_why(&turned));
+        let requests = told_plainly(&self.requests(&without_why));
         let for_nobody = self.without_whom(&turned);
-        let bare = self.without_idle_clauses(&turned).map(|bare| told_by(&bare, TURNS));
-        let bare_without_why = bare.as_ref().map(|bare| told_by(&self.without_why(bare), TURNS));
+        let bare = self.without_idle_clauses(&turned).map(|bare| told_plainly(&bare));
+        let bare_without_why = bare.as_ref().map(|bare| told_plainly(&self.without_why(bare)));
         let mut ways: Vec<Vec<Lexeme>> = Vec::new();
         let plainer = [turned, for_nobody, without_why, requests];
         for way in plainer.into_iter().chain(bare).chain(bare_without_why) {
@@ -289,14 +297,27 @@ fn before_so(lexemes: &[Lexeme]) -> Option<(usize, usize)> {
     Some((end, so + 1))
 }
 
+/// A table of turns of phrase.
+type Turns = [(&'static str, &'static str)];
+
+/// Each sentence by the turns of phrase of all tables.
+fn told_plainly(lexemes: &[Lexeme]) -> Vec<Lexeme> {
+    told_by(lexemes, &[TURNS, SAYINGS])
+}
+
 /// Each sentence by the first turn of phrase that it is, two of them at most.
-fn told_by(lexemes: &[Lexeme], turns: &[(&str, &str)]) -> Vec<Lexeme> {
+fn told_by(lexemes: &[Lexeme], tables: &[&Turns]) -> Vec<Lexeme> {
     let mut told = Vec::with_capacity(lexemes.len());
+    let turned = |words: &[Lexeme]| {
+        tables.iter().copied().flatten().find_map(|(said, meant)| by_turn(words, said, meant))
+    };
     for sentence in sentences(lexemes) {
         let end = last_mark(sentence);
         let mut words = sentence[..end].to_vec();
         for _ in 0..2 {
-            if let Some(other) = turns.iter().find_map(|(said, meant)| by_turn(&words, said, meant)) {
+            // "Cones from the hydrant to the bus stop every four metres, please".
+            let kindly = || before_kind_words(&words).and_then(|end| turned(&words[..end]));
+            if let Some(other) = turned(&words).or_else(kindly) {
                 words = other;
             }
         }
@@ -304,6 +325,12 @@ fn told_by(lexemes: &[Lexeme], turns: &[(&str, &str)]) -> Vec<Lexeme> {
         told.extend_from_slice(&sentence[end..]);
     }
     told
+}
+
+/// Where words of politeness begin behind the last comma, if nothing else stands there.
+fn before_kind_words(words: &[Lexeme]) -> Option<usize> {
+    let comma = words.iter().rposition(|lexeme| lexeme.token == Token::Comma).filter(|comma| *comma > 0)?;
+    (longest_phrase(&words[comma + 1..], CODA) == Some(words.len() - comma - 1)).then_some(comma)
 }
 
 /// What the words mean by a turn of phrase, if they are one.
@@ -353,7 +380,7 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     let is_any = first.len() == 1 && first.starts_with(|letter: char| letter.is_ascii_uppercase());
     if !is_any {
         let here = words.get(at).is_some_and(|lexeme| match &lexeme.token {
-            Token::Comma => *first == ",",
+            Token::Comma => first.split('|').any(|said| said == ","),
             Token::Word(word) => first.split('|').any(|said| said == word),
             _ => false,
         });
@@ -362,14 +389,14 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     }
     let is_open = ["O", "P", "Q"].contains(first);
     let least = usize::from(!is_open);
-    let most = if ["M", "D", "X"].contains(first) { 3 } else { words.len() - at };
+    let most = if ["M", "D", "E", "X"].contains(first) { 3 } else { words.len() - at };
     for count in least..=most.min(words.len() - at) {
         let part = &words[at..at + count];
         if !is_open && part.iter().any(is_mark) {
             break;
         }
         if *first == "M" && !is_measure(part)
-            || *first == "D" && !is_new(part)
+            || ["D", "E"].contains(first) && !is_new(part)
             || *first == "O" && !may_order(part)
             || !is_of_kind(first, part)
         {
@@ -389,6 +416,11 @@ fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
     let whole = |found: Option<usize>| found == Some(words.len());
     match capital {
         "K" => whole(longest(words, PAINTS).map(|(_, count)| count)),
+        "G" => longest(words, &VERBS).is_none(),
+        "H" => {
+            category(words).is_some_and(|(_, count)| count == words.len())
+                || matches!(words, [only] if super::follow::species(only).is_some())
+        }
         "F" => whole(longest(words, &super::words::FACTORS).map(|(_, count)| count)),
         "Y" | "Z" => {
             whole(longest(words, &super::words::SKIES).map(|(_, count)| count))

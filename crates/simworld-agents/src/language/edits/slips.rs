@@ -110,6 +110,13 @@ const USUAL: &[(&str, &str)] = &[
     ("whte", "white"),
     ("thnik", "think"),
     ("befor", "before"),
+    ("ar", "are"),
+    ("tha", "the"),
+    ("fo", "of"),
+    ("ni", "in"),
+    ("si", "is"),
+    ("wich", "which"),
+    ("witch", "which"),
 ];
 
 /// Behind "tow", that it is an order and no slip of "two".
@@ -146,7 +153,11 @@ pub(super) fn correct(
     }
     let new_names = new_names(words, lexemes);
     correct_but(lexemes, names, &|word| {
-        known.own.contains(word) || streets.has_word(word) || new_names.iter().any(|name| name == word)
+        let is_of_name = || word.strip_suffix('s').is_some_and(|stem| names.has_word(stem));
+        known.own.contains(word)
+            || streets.has_word(word)
+            || new_names.iter().any(|name| name == word)
+            || is_of_name()
     });
 }
 
@@ -196,7 +207,9 @@ impl Known<'_> {
         }
         // Names are written with a capital, and may be anything.
         let is_name = at > 0 && words[lexemes[at].start..].starts_with(char::is_uppercase);
-        let one = || right.or_else(|| nearest(word, &self.own).filter(|_| !is_name));
+        // "Annas" are no slip of another word in the plural.
+        let is_of_name = word.strip_suffix('s').is_some_and(|stem| self.names.has_word(stem));
+        let one = || right.or_else(|| nearest(word, &self.own).filter(|_| !is_name && !is_of_name));
         compound(word, self.own.stock).or_else(|| one().map(|right| vec![right]))
     }
 
@@ -276,7 +289,23 @@ impl Own<'_> {
     }
 }
 
+/// A word with each letter once where it stands twice in a row.
+fn once(word: &str) -> String {
+    let mut letters: Vec<char> = word.chars().collect();
+    letters.dedup();
+    letters.into_iter().collect()
+}
+
+/// The word that was meant: as it stands, or in the plural of one that is known.
 fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
+    nearest_as_said(word, own).or_else(|| {
+        let stem = word.strip_suffix('s').filter(|stem| stem.chars().count() > SHORTEST)?;
+        let noun = nearest_as_said(stem, own).filter(|noun| own.stock.has_word(noun))?;
+        Some(format!("{noun}s"))
+    })
+}
+
+fn nearest_as_said(word: &str, own: &Own<'_>) -> Option<String> {
     let letters = |word: &str| {
         let mut letters: Vec<char> = word.chars().collect();
         letters.sort_unstable();
@@ -306,11 +335,13 @@ fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
         let distance = strsim::osa_distance(word, known);
         // A word of everybody is likelier than one of the catalogue: "bech" is a bench and no beech.
         let is_rare = !TABLES.contains(known);
+        // "Dors" are doors and no dorms: who slips forgets the second of two letters.
+        let is_single = slip != Slip::Count || once(known) != once(word);
         (
             if slip == Slip::Swapped && distance <= 2 { 1 } else { distance },
             slip,
             (begins, ends),
-            is_rare,
+            (is_single, is_rare),
             known,
         )
     });

@@ -28,9 +28,12 @@ impl Finder<'_> {
                     Anchor::Street(_, roads) => Stand::AlongRoad { roads: roads.clone() },
                     _ => self.to(*relation, self.anchor(anchor, moved)?)?,
                 },
-                Where::Between(one, other) => {
-                    Stand::Between { one: self.anchor(one, moved)?, other: self.anchor(other, moved)? }
-                }
+                Where::Between(one, other) => match self.pair_made(one, other) {
+                    Some([one, other]) => Stand::Between { one, other },
+                    None => {
+                        Stand::Between { one: self.anchor(one, moved)?, other: self.anchor(other, moved)? }
+                    }
+                },
                 Where::Across(anchor) => Stand::AcrossFrom { anchor: self.anchor(anchor, moved)? },
                 Where::Along(Anchor::Street(_, roads)) | Where::BothSides(Anchor::Street(_, roads)) => {
                     Stand::AlongRoad { roads: roads.clone() }
@@ -61,6 +64,12 @@ impl Finder<'_> {
             stands.push(stand);
         }
         Ok(stands)
+    }
+
+    /// "Between them", of two new things.
+    fn pair_made(&self, one: &Anchor, other: &Anchor) -> Option<[EntityId; 2]> {
+        let (Anchor::Thing(one), Anchor::Thing(_)) = (one, other) else { return None };
+        self.made_as(one).filter(|_| other.is_it())?.try_into().ok()
     }
 
     /// Where what was spoken of last stood; beside it, if it still stands there.

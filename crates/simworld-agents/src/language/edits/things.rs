@@ -114,6 +114,10 @@ impl Reader<'_> {
         let mut at = self.places(end)?;
         // "A tree behind the school and a bench in front of it": of the school.
         for place in &mut at {
+            // "Two benches in the park and a bin between them": of the benches.
+            if matches!(place, Where::Between(one, other) if one.is_it() && other.is_it()) {
+                continue;
+            }
             if !super::places::is_of_the_new(place, anchor.as_ref(), |thing| self.is_large(thing)) {
                 place.means(anchor);
             }

@@ -4,7 +4,7 @@ use super::super::phrases::Phrases;
 
 /// What adds nothing, wherever it stands.
 #[rustfmt::skip]
-pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with each other", "with one another", "on guard", "on duty", "on watch", "on standby", "on call", "at the ready", "from today on", "from now on",
+pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with each other", "with one another", "on guard", "on duty", "on watch", "on standby", "on call", "at the ready", "from today on", "from tomorrow on", "from now on",
     "as of today", "as of now", "starting today", "starting now", "starting from now", "ever again", "of course", "to all vehicles", "to all traffic", "to vehicles", "for all traffic", "for all vehicles", "while youre at it",
     "if possible", "if you can", "if you could", "if thats possible", "if that is possible", "all in all", "altogether", "for the time being", "for the moment", "for a change", "for good measure", "for company",
     "right about now", "right now", "out here", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
@@ -12,7 +12,7 @@ pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah
     "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "pretty please", "pretty pleas", "if nobody minds", "to sleep in", "to sleep on", "to hide in", "to climb on", "be a dear", "be an angel", "after all", "for crying out loud"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
-/// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number, `K` a colour, `W` a place, `N` and `V`
+/// none, `O` too where an order may follow, `M` is a measure, `D` and `E` an article or a number, `H` a noun of the scene, `K` a colour, `W` a place, `N` and `V`
 /// certain things, `X` up to three words without a place, `F` how many times as large, `Y` a sky, `U` a superlative; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 pub(super) const TURNS: &[(&str, &str)] = &[
@@ -122,7 +122,7 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("A would|might|could be|look|feel|seem B with D C", "A needs D C"),
     ("A can|must|should|may|have|has|could to|- go|leave|disappear except|but for|- B", "remove A except B"),
     ("itd|it|that|thatd would|- P if you|we|somebody|someone planted|put|placed|added|installed|set|parked|built|stood D A", "put D A"),
-    ("D A and D B come|comes|walk|walks|step|steps out|over|up|along|- and stand|sit|wait|pose|work|stay C", "put D A and D B C"),
+    ("D A and E B come|comes|walk|walks|step|steps out|over|up|along|- and stand|sit|wait|pose|work|stay C", "put D A and E B C"),
     ("D A comes|walks|steps out|over|up|along|- and stands|sits|waits|poses|works|stays B", "put D A B"),
     ("A in a line|row between B and C , nicely|all|perfectly|- even|evenly|straight Q", "A evenly between B and C"),
     ("A has|have|must|should|needs|ought to|- be closed|shut|blocked between B and C", "close A between B and C"),
@@ -403,6 +403,28 @@ pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
     ("O make|create|produce D copies of A and place|put|set|stand|park|leave|position them|both B", "O make D copies of A B"),
     ("O make|create|produce a|one copy of A and place|put|set|stand|park|leave|position it B", "O make a copy of A B"),
     ("O land D A W", "O put D A W"),
+    ("should it be|get|turn|start|- Y , P", "if it is Y , P"),
+    ("if|should there is|are|be no|not a|an|any|- A W , please|then|- put|add|place|build|set|plant|make|install E there", "if there is no A W , put E A W"),
+    ("if there is|are no|not a|an|any|- A W , please|then|- put|add|place|build|set|plant|make|install E there , Q", "if there is no A W , put E A W"),
+    ("what|how about D A , Q put|add|place|build|plant|set one W P", "put D A W P"),
+    ("O grab|fetch|lift|seize|collect N and put|place|set|move|stand|park|stick|drop|carry|push|bring it|him|her|them down|over|back|- W", "O move N W"),
+    ("P a bit|little|lot|- bigger|larger|smaller|taller F", "P F"),
+    ("if there is|are a|an X , P otherwise|else put|add|place|build|plant|make one B", "if there is a X , P otherwise put a X B"),
+    ("unless there is|are a|an|any X , P put|add|place|build|plant|make|set one B", "if there is no X , P put a X B"),
+    ("unless theres a|an|any X , P put|add|place|build|plant|make|set one B", "if there is no X , P put a X B"),
+    ("if theres a|an X , P otherwise|else put|add|place|build|plant|make one B", "if there is a X , P otherwise put a X B"),
+    ("P a bit|little|lot bigger|larger|taller|smaller , say|maybe|perhaps twice Q", "P twice Q"),
+    ("P a bit|little|lot bigger|larger|taller|smaller , say|maybe|perhaps half Q", "P half Q"),
+    ("P D A to|on|at the left and|, E to|on|at the right of C", "P D A to the left of C and E A to the right of C"),
+    ("P D A to|on|at the right and|, E to|on|at the left of C", "P D A to the right of C and E A to the left of C"),
+    // Two places that are told of one thing.
+    ("P D A to|on|at the left and|, E B to|on|at the right of C", "P D A to the left of C and E B to the right of C"),
+    ("P D A to|on|at the right and|, E B to|on|at the left of C", "P D A to the right of C and E B to the left of C"),
+    ("P D A in front and|, E B behind C", "P D A in front of C and E B behind C"),
+    ("P D A to|in|on|- the|- north and|, E B to|in|on|- the|- south of C", "P D A north of C and E B south of C"),
+    ("P D A to|in|on|- the|- south and|, E B to|in|on|- the|- north of C", "P D A south of C and E B north of C"),
+    ("P D A to|in|on|- the|- east and|, E B to|in|on|- the|- west of C", "P D A east of C and E B west of C"),
+    ("P D A to|in|on|- the|- west and|, E B to|in|on|- the|- east of C", "P D A west of C and E B east of C"),
     ("P building|shop|place|store|house|kiosk where A is|are sold Q", "P building that sells A Q"),
     ("P building|house|shop with the|a locked door Q", "P building nearest to the locked door Q"),
     ("P building|house|shop with the|an open door Q", "P building nearest to the open door Q"),
@@ -459,5 +481,5 @@ pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
 ];
 /// What is said by the way, in the words of who asks kindly.
 #[rustfmt::skip]
-pub(super) const ASIDES: &Phrases = &Phrases::of(&["dont get me wrong", "dont ask me how", "dont ask me why", "dont ask why", "dont you worry", "dont laugh", "while i think of it", "while im thinking of it", "once thats done", "when thats done", "once that is done", "when that is done", "if it isnt too much bother", "if it isnt too much trouble", "if it is not too much bother", "if it is not too much trouble", "if its not too much bother", "while youre in there", "when you have a second", "when you get a second", "just out of curiosity", "out of curiosity", "if it were up to me", "bless him", "bless her", "bless them", "truth be told", "come to think of it", "before i forget", "before i go", "if memory serves", "for instance", "for example", "if i remember rightly", "if im not mistaken", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
+pub(super) const ASIDES: &Phrases = &Phrases::of(&["first job of the day", "next job of the day", "last job of the day", "first task of the day", "next task of the day", "last task of the day", "first order of the day", "first order of business", "next order of business", "order of the day", "time to call it a day", "lets call it a day", "dont get me wrong", "dont ask me how", "dont ask me why", "dont ask why", "dont you worry", "dont laugh", "while i think of it", "while im thinking of it", "once thats done", "when thats done", "once that is done", "when that is done", "if it isnt too much bother", "if it isnt too much trouble", "if it is not too much bother", "if it is not too much trouble", "if its not too much bother", "while youre in there", "when you have a second", "when you get a second", "just out of curiosity", "out of curiosity", "if it were up to me", "bless him", "bless her", "bless them", "truth be told", "come to think of it", "before i forget", "before i go", "if memory serves", "for instance", "for example", "if i remember rightly", "if im not mistaken", "heres the thing", "so heres the thing", "here is the thing", "while youre up there", "while youre there", "while you are there", "while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
     "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);

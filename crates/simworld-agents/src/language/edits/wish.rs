@@ -188,8 +188,8 @@ pub(super) struct NewThing {
     pub(super) many: bool,
     pub(super) paint: Option<Paint>,
     pub(super) scale: f64,
-    /// How tall it is to be, m, if that was said.
-    pub(super) height: Option<f64>,
+    /// The size that it is to have, if one was said by measure or by another thing.
+    pub(super) size: Option<Size>,
     pub(super) name: Option<String>,
     /// The words themselves, for answers.
     pub(super) text: String,
