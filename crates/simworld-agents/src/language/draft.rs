@@ -402,7 +402,13 @@ impl<'a> Draft<'a> {
                 }
             }
         };
-        self.navigate(goal, within.unwrap_or(usual), speed_of(pace))
+        let (within, speed) = (within.unwrap_or(usual), speed_of(pace));
+        // "Find the smallest house and walk over to it": one is there by then.
+        let is_named = matches!(goal, Goal::Entity(_)) && to.target != Target::There;
+        if is_named && self.last_step() == Some(&PlanStep::Navigate { to: goal, within, speed }) {
+            return Ok(());
+        }
+        self.navigate(goal, within, speed)
     }
 
     /// Goes to where an entity is within reach, unless one is there by then.
@@ -427,12 +433,7 @@ impl<'a> Draft<'a> {
         if way.norm() > within {
             self.view.heading = heading(&way);
         }
-        let step = PlanStep::Navigate { to, within, speed };
-        // "Find the smallest house and walk over to it": one is there by then.
-        let is_there = matches!(to, Goal::Entity(_)) && self.last_step() == Some(&step);
-        if !is_there {
-            self.push(step);
-        }
+        self.push(PlanStep::Navigate { to, within, speed });
         Ok(())
     }
 

@@ -8,7 +8,7 @@ use std::panic::resume_unwind;
 use std::thread;
 
 use crate::city::City;
-use crate::edits_common::{Asked, CITIES, Verdict, asked_in, taught_in, verdict};
+use crate::edits_common::{Asked, CITIES, Verdict, is_whole, sampled_in, taught_in, verdict};
 
 /// What each family scores at least, in percent. Raise it when the grammar learns; never lower it but for new sentences.
 const FLOORS: [(&str, f64); 15] = [
@@ -69,7 +69,7 @@ fn every_family_holds_its_floor() {
     let mut families: BTreeMap<String, Score> = BTreeMap::new();
     let mut sets: BTreeMap<(&str, String), Score> = BTreeMap::new();
     let mut faults = Vec::new();
-    for (city, asked, verdict) in &judged(asked_in) {
+    for (city, asked, verdict) in &judged(sampled_in) {
         families.entry(asked.family.clone()).or_default().count(verdict);
         sets.entry((asked.set, asked.family.clone())).or_default().count(verdict);
         if *verdict != Verdict::Right {
@@ -83,11 +83,14 @@ fn every_family_holds_its_floor() {
         );
     }
     let mut below = Vec::new();
+    // A sample may have one more than its share of what is not understood.
+    let spare = usize::from(!is_whole());
     for (family, floor) in FLOORS {
         let score = &families[family];
-        let percent = score.right as f64 / score.all as f64 * 100.0;
-        println!("{family:16} {:3} of {:3}  {percent:5.1} %", score.right, score.all);
-        if percent < floor {
+        let percent = |right: usize| right as f64 / score.all as f64 * 100.0;
+        println!("{family:16} {:3} of {:3}  {:5.1} %", score.right, score.all, percent(score.right));
+        if percent(score.right + spare) < floor {
+            let percent = percent(score.right);
             below.push(format!("{family} scores {percent:.1} %, below its floor of {floor} %"));
         }
         if ["ambiguous", "unsatisfiable"].contains(&family) && score.wrong_edits > 0 {

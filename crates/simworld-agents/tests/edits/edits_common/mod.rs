@@ -12,7 +12,7 @@ use simworld_core::scene::{EntityRef, Relation, Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::traffic::RoadLeg;
 
-pub(crate) use asked::{Asked, CITIES, asked_in, taught_in};
+pub(crate) use asked::{Asked, CITIES, is_whole, sampled_in, taught_in};
 
 use crate::city::City;
 
