@@ -250,7 +250,7 @@ impl Painter<'_> {
         let (mut is_own, mut in_hand) = (false, None);
         for matter in [Matter::Whole, Matter::Cut] {
             for batch in batches {
-                let Some(corners) = self.corners(batch.mesh, matter) else { continue };
+                let Some(corners) = corners(self.meshes, self.models, batch.mesh, matter) else { continue };
                 let wanted = brush(batch.mesh.pattern(), matter);
                 if in_hand != Some(wanted) {
                     pass.set_pipeline(self.pipelines.of(self.job.gpu, wanted));
@@ -272,10 +272,6 @@ impl Painter<'_> {
                 }
             }
         }
-    }
-
-    fn corners(&self, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
-        corners(self.meshes, self.models, mesh, matter)
     }
 }
 

@@ -82,9 +82,11 @@ pub(crate) fn written<'a>(text: &'a str, lexemes: &[Lexeme]) -> &'a str {
     start.zip(end).and_then(|(start, end)| text.get(start..end)).unwrap_or_default()
 }
 
-/// What is left of a sentence, word by word; whatever is no word and no number is a comma.
+/// What a rule makes of a sentence, word by word; whatever is no word and no number is a comma.
 #[cfg(test)]
-pub(crate) fn spelt(lexemes: &[Lexeme]) -> String {
+pub(crate) fn rewritten(said: &str, rule: impl FnOnce(&mut Vec<Lexeme>)) -> String {
+    let mut lexemes = lex(said);
+    rule(&mut lexemes);
     let words = lexemes.iter().map(|lexeme| match &lexeme.token {
         Token::Word(word) => word.clone(),
         Token::Number(number) => number.to_string(),

@@ -348,36 +348,12 @@ impl Parser<'_> {
 
     /// "On the way to the museum", "before going home", "after half a minute", "but first wave".
     fn in_turn(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
-        let last = clauses.len() - 1;
-        if self.stopped_over(clauses) || self.by_another_place(clauses) {
+        if self.stopped_over(clauses) || self.by_another_place(clauses)? {
             return Ok(true);
         }
         if self.eat_any(ON_THE_WAY) {
             let to = self.reference(0)?;
             clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
-        } else if self.eat_any(&[
-            "but pass by",
-            "stopping at",
-            "stopping off at",
-            "with a stop at",
-            "stopping by",
-            "calling at",
-            "with a stopover at",
-            "but stop at the",
-            "but stop off at",
-        ]) {
-            let the = self.lexemes[self.at - 1].token == Token::Word("the".to_owned());
-            self.at -= usize::from(the);
-            let to = self.reference(0)?;
-            self.eat_any(&[
-                "on the way",
-                "along the way",
-                "on your way",
-                "first",
-                "en route",
-                "on the way there",
-            ]);
-            clauses.insert(last, Clause::Go { to, side: None, pace: Pace::Usual, within: None });
         } else if self.eat_any(&["before"]) {
             self.eat_any(&["you"]);
             let start = self.at;

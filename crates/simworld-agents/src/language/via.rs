@@ -1,6 +1,8 @@
 //! Another place on the way, told behind where the way leads: "via the canteen", "and take the route by way of it", "going to the willow
 //! first".
 
+use simworld_core::seam::PlanError;
+
 use super::clause::{Clause, Pace, Reference};
 use super::parser::Parser;
 use super::phrases::Phrases;
@@ -84,25 +86,37 @@ const TO: &Phrases = &Phrases::of(&[
     "walking to",
     "passing",
     "visiting",
-    "stopping at",
-    "stopping by",
     "calling at",
-    "going via",
     "dropping by",
     "looking in at",
 ]);
 const FIRST: &Phrases =
     &Phrases::of(&["first", "first of all", "before that", "beforehand", "before anything else"]);
+/// Stopping at a place on the way.
+const STOPS: &Phrases = &Phrases::of(&[
+    "but pass by",
+    "stopping at",
+    "stopping off at",
+    "with a stop at",
+    "stopping by",
+    "calling at",
+    "with a stopover at",
+    "but stop at the",
+    "but stop off at",
+]);
+/// Behind such a place.
+const ON_IT: &Phrases =
+    &Phrases::of(&["on the way", "along the way", "on your way", "first", "en route", "on the way there"]);
 
 impl Parser<'_> {
     /// "Via", "and go by way of", "taking the route through": what brings in a place on the way; nothing is passed where it is none.
     pub(super) fn eat_via(&mut self) -> bool {
         let start = self.at;
         self.eat_any(JOINTS);
-        let chosen = self.eat_any(TAKING) && self.eat_any(WAYS);
-        let via = if chosen {
+        let via = if self.eat_any(TAKING) {
+            let is_way = self.eat_any(WAYS);
             self.eat_any(LEADING);
-            self.eat_any(BY)
+            is_way && self.eat_any(BY)
         } else {
             self.eat_any(GOING);
             self.eat_any(VIA)
@@ -124,17 +138,27 @@ impl Parser<'_> {
         first
     }
 
+    /// "But stop at the kiosk", before the place; its article belongs to it.
+    fn eat_stop(&mut self) -> bool {
+        let stops = self.eat_any(STOPS);
+        self.at -= usize::from(stops && self.word_before() == "the");
+        stops
+    }
+
     /// The place on the way that is told behind the last order, set before it.
-    pub(super) fn by_another_place(&mut self, clauses: &mut Vec<Clause>) -> bool {
-        let start = self.at;
-        let to = self.going_first().or_else(|| if self.eat_via() { self.reference(0).ok() } else { None });
-        let last = clauses.len().checked_sub(1).filter(|last| matches!(clauses[*last], Clause::Go { .. }));
-        let (Some(to), Some(last)) = (to, last) else {
-            self.at = start;
-            return false;
+    pub(super) fn by_another_place(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        let to = match self.going_first() {
+            Some(to) => to,
+            None if self.eat_via() || self.eat_stop() => {
+                let to = self.reference(0)?;
+                self.eat_any(ON_IT);
+                to
+            }
+            None => return Ok(false),
         };
+        let last = clauses.len().saturating_sub(1);
         clauses.insert(last, Clause::Go { to, side: None, pace: Pace::Usual, within: None });
-        true
+        Ok(true)
     }
 
     /// Whether that follows a comma.

@@ -54,10 +54,12 @@ impl Works {
         });
         let mut sieves: Vec<Sieve> = views.collect();
         if is_shaded.contains(&true) {
+            // One that is not drawn has the sieve of some view.
+            let none = sieves[0];
             let of = |shadow: &Option<ShadowView>| {
-                shadow.as_ref().map_or(sieves[0], |shadow| Sieve::of_shadow(shadow, finest))
+                shadow.as_ref().map_or(none, |shadow| Sieve::of_shadow(shadow, finest))
             };
-            sieves.extend(sight.shadows.iter().map(of).collect::<Vec<_>>());
+            sieves.extend(sight.shadows.iter().map(of));
         }
         let models: Vec<_> = self.residents.models.keys().copied().collect();
         if self.raster.models.hold(&self.gpu, self.residents.sources(scene), models)? {

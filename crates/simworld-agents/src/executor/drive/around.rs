@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use nalgebra::UnitQuaternion;
-use simworld_core::control::Driver;
 use simworld_core::geometry::{Aabb, Obb, Point2, Vector2, Vector3, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
@@ -108,7 +107,7 @@ pub(super) fn meets(one: &Obb, other: &Obb, beside: f64) -> bool {
 
 /// The solid of a vehicle that has rolled so far, m, with its front wheels at an angle, radians: the rear axle goes round a circle.
 pub(super) fn rolled(own: &Own<'_>, distance: f64, steer: f64) -> Obb {
-    let wheelbase = Driver::of_length(own.half_length * 2.0).wheelbase;
+    let wheelbase = own.wheelbase();
     let turn = distance * tan(steer) / wheelbase;
     let left = Vector2::new(-own.ahead.y, own.ahead.x);
     // The chord of the rear axle's way, and where the middle is before it.

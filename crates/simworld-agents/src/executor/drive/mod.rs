@@ -211,7 +211,7 @@ impl RuleExecutor {
         }
         let obstacle = allowed.obstacle;
         let patience = match obstacle {
-            Some(other) if way.dodged(own, &other, around).is_some() => pass::DODGES,
+            Some(other) if way.dodged(own, &other).is_some() => pass::DODGES,
             Some(other) if other.is_mobile && way.is_queue(&other, around) => QUEUE,
             Some(other) if other.is_mobile => STANDS,
             _ => self.config.patience,

@@ -47,13 +47,13 @@ const AT_LIGHT: f64 = 80.0;
 impl Driving {
     /// How far aside one would go past what stands at a side of one's lane, as who is parked does, m to the left, negative to the
     /// right; `None` where that is no place in one's lane, nor, while one pulls out, towards it.
-    pub(super) fn dodged(&self, own: &Own<'_>, obstacle: &Obstacle, around: &[Seen]) -> Option<f64> {
+    pub(super) fn dodged(&self, own: &Own<'_>, obstacle: &Obstacle) -> Option<f64> {
         let room = own.half_width + DODGE_BESIDE;
         let (left, right) = ((obstacle.left + room).max(0.0), (obstacle.right - room).min(0.0));
         let aside = if left <= -right { left } else { right };
         let dodge = DODGE.max(IN_LANE - own.half_width);
         let farthest = if self.pulls_out() { PULLS_OUT } else { dodge };
-        let nearest = if self.comes_towards(obstacle, around) { MAKES_WAY } else { dodge };
+        let nearest = if obstacle.comes { MAKES_WAY } else { dodge };
         Some(aside).filter(|_| obstacle.stands && (-nearest..=farthest).contains(&aside))
     }
 
@@ -70,7 +70,7 @@ impl Driving {
 
     /// Whether what stands ahead waits for a junction, or behind somebody who does.
     pub(super) fn is_queue(&self, obstacle: &Obstacle, around: &[Seen]) -> bool {
-        if self.comes_towards(obstacle, around) {
+        if obstacle.comes {
             return false;
         }
         let line = self.lines.iter().find(|line| line.station > obstacle.begin);
@@ -83,14 +83,6 @@ impl Driving {
             })
     }
 
-    /// Whether what stands ahead looks against the way that one goes.
-    fn comes_towards(&self, obstacle: &Obstacle, around: &[Seen]) -> bool {
-        const AGAINST: f64 = -0.5;
-        let way = direction(polyline::at(&self.path, obstacle.begin).1);
-        let other = around.iter().find(|other| other.id == obstacle.id);
-        other.is_some_and(|other| other.kind.is_vehicle() && other.ahead.dot(&way) < AGAINST)
-    }
-
     /// Tries something: bends the path round it, backing for room before, or takes other roads; if nothing helps, waits on.
     pub(super) fn get_past(
         &mut self,
@@ -100,7 +92,7 @@ impl Driving {
         around: &[Seen],
         obstacle: &Obstacle,
     ) {
-        let dodged = self.dodged(own, obstacle, around);
+        let dodged = self.dodged(own, obstacle);
         let dodges = dodged.is_some();
         let queue = !dodges && self.is_queue(obstacle, around);
         if !obstacle.stands || (queue && !self.tries.is_multiple_of(PATIENCE)) {
@@ -122,7 +114,7 @@ impl Driving {
         } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
             self.drive_round(scene, network, vehicle, own, obstacle);
         } else if self.lines.first().is_some_and(|line| line.is_passed)
-            || self.comes_towards(obstacle, around)
+            || obstacle.comes
             || is_hemmed_in(own, around)
         {
             // Two who stand nose to nose both wait for the other to go, and so do one who has swung out and who stands beside it.

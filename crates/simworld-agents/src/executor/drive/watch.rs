@@ -31,6 +31,8 @@ const BESIDE: f64 = 0.4;
 pub(super) const SIGHT: (f64, f64) = (15.0, 90.0);
 /// How long ahead one foresees where people will be, s.
 const FORESIGHT: [f64; 3] = [0.0, 1.0, 2.0];
+/// Whose front is turned so far from one's way comes towards one, as the cosine of the angle between.
+const AGAINST: f64 = -0.5;
 /// So near to the end of the path one stops, m.
 const STOPPED: f64 = 0.7;
 
@@ -69,8 +71,12 @@ impl<'a> Own<'a> {
     pub(super) fn wheels(&self) -> Option<f64> {
         /// m/s.
         const ROLLS: f64 = 0.2;
-        let wheelbase = Driver::of_length(self.half_length * 2.0).wheelbase;
-        (self.speed > ROLLS).then(|| atan2(self.turns * wheelbase, self.speed))
+        (self.speed > ROLLS).then(|| atan2(self.turns * self.wheelbase(), self.speed))
+    }
+
+    /// Between its axles, m.
+    pub(super) fn wheelbase(&self) -> f64 {
+        Driver::of_length(self.half_length * 2.0).wheelbase
     }
 
     /// Length and width, m.
@@ -101,6 +107,8 @@ pub(super) struct Obstacle {
     pub(super) left: f64,
     pub(super) stands: bool,
     pub(super) is_mobile: bool,
+    /// Whether it is a vehicle that looks against the way that one goes.
+    pub(super) comes: bool,
 }
 
 /// The speed from which one stops within a distance, m/s.
@@ -290,7 +298,8 @@ impl Driving {
         let speed = if gap < -1.0 { 0.0 } else { speed };
         let (begin, end) = (begin + self.station, end + self.station);
         let (stands, is_mobile) = (other.stands(), other.kind.is_mobile());
-        Some((speed, Obstacle { id: other.id, begin, end, right, left, stands, is_mobile }))
+        let comes = other.kind.is_vehicle() && other.ahead.dot(&direction(heading)) < AGAINST;
+        Some((speed, Obstacle { id: other.id, begin, end, right, left, stands, is_mobile, comes }))
     }
 }
 

@@ -51,6 +51,14 @@ pub(super) fn is_form(word: &str) -> bool {
     base_of(word).iter().any(|base| VERBS.begins(base))
 }
 
+/// The word at a place; empty where none is.
+pub(super) fn word(lexemes: &[Lexeme], at: usize) -> &str {
+    match lexemes.get(at).map(|lexeme| &lexeme.token) {
+        Some(Token::Word(word)) => word,
+        _ => "",
+    }
+}
+
 /// A word that is not in the sentence, in the place of one that is.
 pub(super) fn word_at(place: &Lexeme, word: &str) -> Lexeme {
     Lexeme { token: Token::Word(word.to_owned()), lemma: None, ..place.clone() }

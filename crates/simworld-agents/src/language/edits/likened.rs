@@ -5,7 +5,7 @@ use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
-use super::forms::{word_at, words_at};
+use super::forms::{word, word_at, words_at};
 use super::words::WAYS;
 
 /// Before what is to be copied.
@@ -25,13 +25,6 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     the_new_one(lexemes);
 }
 
-fn word(lexemes: &[Lexeme], at: usize) -> &str {
-    match lexemes.get(at).map(|lexeme| &lexeme.token) {
-        Some(Token::Word(word)) => word,
-        _ => "",
-    }
-}
-
 /// "Another bench like the red one": a copy of the red bench.
 fn copied(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let another = (0..lexemes.len()).find(|at| word(lexemes, *at) == "another")?;
@@ -49,8 +42,9 @@ fn copied(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
         longest_phrase(&lexemes[one..], &["one", "first one", "old one", "other one", "first", "other"])
             .or_else(|| longest_phrase(&lexemes[behind..], &["ours", "that"]).filter(|_| the == 0))
             .or_else(|| {
-                (lexemes.get(one..one + name.len()).is_some_and(|own| spelt(own) == spelt(name)))
-                    .then_some(name.len())
+                let own = lexemes.get(one..one + name.len())?;
+                let is_named = own.iter().map(|word| &word.token).eq(name.iter().map(|word| &word.token));
+                is_named.then_some(name.len())
             })?;
     let mut end = one + said;
     // "The one we have in front of the dorm" may be there, or to be put there: the marks say which.
@@ -72,10 +66,6 @@ fn copied(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     words.extend(plain);
     words.extend_from_slice(&lexemes[end..]);
     Some(words)
-}
-
-fn spelt(lexemes: &[Lexeme]) -> Vec<&Token> {
-    lexemes.iter().map(|lexeme| &lexeme.token).collect()
 }
 
 /// "Put a table here and paint the new one green", "... the new table": what was just asked for.
@@ -105,13 +95,11 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::lex;
+    use super::super::super::lexer::rewritten;
     use super::*;
 
     fn plain(said: &str) -> String {
-        let mut lexemes = lex(said);
-        in_plain_words(&mut lexemes);
-        super::super::super::lexer::spelt(&lexemes)
+        rewritten(said, in_plain_words)
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
-use super::forms::words_at;
+use super::forms::{word, words_at};
 use super::words::WAYS;
 
 /// Before what is nearest or farthest, and says no more.
@@ -57,13 +57,6 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     counted(lexemes);
     turned(lexemes);
     pitied(lexemes);
-}
-
-fn word(lexemes: &[Lexeme], at: usize) -> &str {
-    match lexemes.get(at).map(|lexeme| &lexeme.token) {
-        Some(Token::Word(word)) => word,
-        _ => "",
-    }
 }
 
 /// Whether a noun of a class ends before a word.
@@ -201,13 +194,11 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::{lex, spelt};
+    use super::super::super::lexer::rewritten;
     use super::*;
 
     fn plain(said: &str) -> String {
-        let mut lexemes = lex(said);
-        in_plain_words(&mut lexemes);
-        spelt(&lexemes)
+        rewritten(said, in_plain_words)
     }
 
     #[test]

@@ -103,7 +103,7 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::{Token, lex};
+    use super::super::super::lexer::{Token, lex, rewritten};
     use super::*;
 
     #[test]
@@ -122,13 +122,10 @@ mod tests {
         assert_eq!(plain("any car will do"), "any car will do");
         assert_eq!(plain("make it snow, winter is here to stay"), "make it snow winter is here to stay");
     }
+
     #[test]
     fn what_it_is_like_is_left_out_and_what_it_is_to_be_like_is_not() {
-        let plain = |said: &str| {
-            let mut lexemes = lex(said);
-            leave_out_similes(said, &mut lexemes);
-            super::super::super::lexer::spelt(&lexemes)
-        };
+        let plain = |said: &str| rewritten(said, |lexemes| leave_out_similes(said, lexemes));
         assert_eq!(plain("put a man here, like a little queue"), "put a man here");
         assert_eq!(plain("paint it, as if it were a frog, and go"), "paint it , and go");
         assert_eq!(plain("paint it, like the red one"), "paint it , like the red one");

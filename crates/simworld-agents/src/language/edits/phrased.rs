@@ -9,7 +9,7 @@ use super::super::names::Names;
 use super::super::numbers;
 use super::super::phrases::Phrases;
 use super::follow::species;
-use super::forms::{word_at, words_at};
+use super::forms::{word, word_at, words_at};
 use super::words::{VERBS, Verb, WAYS};
 
 /// A clause between two commas is no longer than that.
@@ -57,13 +57,6 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
             lexemes[at] = word_at(&lexemes[at].clone(), "too");
         }
         at += 1;
-    }
-}
-
-fn word(lexemes: &[Lexeme], at: usize) -> &str {
-    match lexemes.get(at).map(|lexeme| &lexeme.token) {
-        Some(Token::Word(word)) => word,
-        _ => "",
     }
 }
 

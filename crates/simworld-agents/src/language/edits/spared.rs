@@ -123,13 +123,11 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::{lex, spelt};
+    use super::super::super::lexer::rewritten;
     use super::*;
 
     fn plain(said: &str) -> String {
-        let mut lexemes = lex(said);
-        in_plain_words(&mut lexemes);
-        spelt(&lexemes)
+        rewritten(said, in_plain_words)
     }
 
     #[test]

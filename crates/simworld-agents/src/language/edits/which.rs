@@ -38,13 +38,11 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::{lex, spelt};
+    use super::super::super::lexer::rewritten;
     use super::*;
 
     fn plain(said: &str) -> String {
-        let mut lexemes = lex(said);
-        in_plain_words(&mut lexemes);
-        spelt(&lexemes)
+        rewritten(said, in_plain_words)
     }
 
     #[test]
