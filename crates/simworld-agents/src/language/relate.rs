@@ -341,7 +341,7 @@ fn is_before_door(entity: &EntityRef<'_>, house: &EntityRef<'_>) -> bool {
 }
 
 /// From the footprint of a thing to the middle of another, or the other way about if that is less, m.
-fn gap(anchor: &EntityRef<'_>, entity: &EntityRef<'_>) -> f64 {
+pub(super) fn gap(anchor: &EntityRef<'_>, entity: &EntityRef<'_>) -> f64 {
     let to_middle = anchor.info.shape.planar_distance(anchor.pose, &entity.planar());
     to_middle.min(entity.info.shape.planar_distance(entity.pose, &anchor.planar()))
 }

@@ -46,13 +46,20 @@ fn commas_for_dashes(words: &str, lexemes: &mut Vec<Lexeme>) {
         let between = words.get(lexemes[at - 1].end..lexemes[at].start).unwrap_or_default();
         let is_dash =
             between.contains('—') || [" - ", " – ", " -- "].iter().any(|dash| between.contains(dash));
-        if is_dash && !is_mark(&lexemes[at - 1]) && !is_mark(&lexemes[at]) {
+        if (is_dash || hides_sound(between)) && !is_mark(&lexemes[at - 1]) && !is_mark(&lexemes[at]) {
             let mark = Lexeme { token: Token::Comma, lemma: None, ..lexemes[at - 1].clone() };
             lexemes.insert(at, mark);
             at += 1;
         }
         at += 1;
     }
+}
+
+/// Whether a comma was left out together with a sound: "blue, hmm, no", "cake, oh that would be sweet".
+fn hides_sound(between: &str) -> bool {
+    const HEARD: &[&str] = &["hmm", "hm", "oh", "um", "uh", "er", "erm", "ah", "eh", "umm", "hmmm"];
+    let mut heard = between.split(|letter: char| !letter.is_alphabetic());
+    between.contains(',') && heard.any(|word| HEARD.contains(&word.to_lowercase().as_str()))
 }
 
 /// Where the dots end that begin here.

@@ -70,11 +70,15 @@ impl Reader<'_> {
     pub(super) fn is_listed(&self, said: &Said, from: usize, end: usize) -> bool {
         let is_joined = from > 0 && matches!(self.word(from - 1), Some("and" | "or" | "plus"));
         let mut parser = self.parser(from, end);
-        let is_new =
-            longest_phrase(&self.lexemes[from..end], &["a", "an", "another", "two", "three", "four", "some"])
-                .is_some();
+        let is_new = longest_phrase(&self.lexemes[from..end], &["a", "an", "another", "some"]).is_some()
+            || super::super::numbers::count(&self.lexemes[from..end]).is_some()
+                && !matches!(self.word(from + 1), Some("of" | "is" | "are" | "was" | "more"));
         let is_bare = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
         if is_joined && is_new && said.wish.as_ref().is_some_and(is_bare) {
+            return true;
+        }
+        // "Remove the red car and the white one, we want quiet".
+        if is_joined && self.ends_one(from, end) {
             return true;
         }
         is_joined
@@ -83,7 +87,29 @@ impl Reader<'_> {
             && parser.at > from
             // "Turn the taxi around and the van ninety degrees to the right".
             && (self.lexemes.get(parser.at).is_none_or(is_mark)
-                || super::super::numbers::number(&self.lexemes[parser.at..end.max(parser.at)]).is_some())
+                || super::super::numbers::number(&self.lexemes[parser.at..end.max(parser.at)]).is_some()
+                || self.says_how(from, parser.at, end))
+    }
+
+    /// "The white one" up to a mark or a colour.
+    fn ends_one(&self, from: usize, end: usize) -> bool {
+        let one = (from + 1..end.min(from + 4)).find(|at| matches!(self.word(*at), Some("one" | "ones")));
+        self.word(from) == Some("the")
+            && one.is_some_and(|one| {
+                let behind = one + 1;
+                self.lexemes.get(behind).is_none_or(is_mark)
+                    || longest(&self.lexemes[behind..end.max(behind)], super::super::paint::PAINTS).is_some()
+            })
+    }
+
+    /// "Turn Anna to the museum and Ben towards me, I want ...": a place or a colour behind what is named, and no verb up to the mark.
+    fn says_how(&self, from: usize, at: usize, end: usize) -> bool {
+        let rest = &self.lexemes[at.min(end)..end];
+        let mark = (at..end).find(|at| is_mark(&self.lexemes[*at])).unwrap_or(end);
+        let how = longest_phrase(rest, &["towards", "toward", "to", "around", "green again"]).is_some()
+            || longest(rest, super::super::paint::PAINTS).is_some()
+            || self.is_place(at);
+        how && !self.states(from, mark)
     }
 
     /// "..., he'll fetch it later, and the crate behind the shop": a certain thing and its place behind "and", which no remark holds.

@@ -15,6 +15,7 @@ mod bare;
 mod bounds;
 mod breaks;
 mod change;
+mod chatty;
 mod complaints;
 mod conditions;
 mod doubted;
@@ -63,6 +64,7 @@ mod retold;
 mod rows;
 mod sayings;
 mod says;
+mod several_nearest;
 mod shared;
 mod shares;
 mod sizes;
@@ -70,11 +72,13 @@ pub(super) mod sky;
 mod slips;
 mod spared;
 mod spoken;
+mod spoken_first;
 mod standing;
 mod stated;
 mod stood;
 mod strangers;
 mod supposed;
+mod talk;
 mod things;
 mod told;
 mod turn;
@@ -93,6 +97,7 @@ use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
 use wish::Wish;
 
+use super::lexer::Lexeme;
 use super::names::Names;
 use super::parser::shortened;
 use super::resolve::View;
@@ -150,22 +155,7 @@ pub(crate) fn read(
     let view = view_of(scene, focus);
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
-    breaks::in_plain_words(words, &mut lexemes);
-    respelt::in_plain_spelling(words, &mut lexemes);
-    doubted::in_plain_words(&mut lexemes);
-    retold::in_plain_words(&mut lexemes);
-    slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
-    spared::in_plain_words(&mut lexemes);
-    phrased::in_plain_words(words, &mut lexemes, &names);
-    narrowed::in_plain_words(&mut lexemes);
-    plain::in_plain_words(words, &mut lexemes, &names);
-    others::in_plain_words(&mut lexemes);
-    which::in_plain_words(&mut lexemes);
-    whole::in_plain_words(&mut lexemes);
-    passing::leave_out(&mut lexemes);
-    rows::on_both_sides(&mut lexemes, &focus.streets);
-    repairs::put_right(&mut lexemes);
-    spoken::name_streets(&mut lexemes, &focus.streets);
+    put_plainly(words, &mut lexemes, &names, (stock, &focus.streets));
     let names = names.with_made(&lexemes, &stock.catalogue);
     let first = nth::first_of(&mut lexemes);
     let memo = memo::Memo::default();
@@ -182,6 +172,8 @@ pub(crate) fn read(
     let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
     let left = reader.with_what_is_left(&finder);
     let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
+    let several = reader.with_several_nearest(&finder);
+    let reader = Reader { lexemes: several.as_deref().unwrap_or(reader.lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
     if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
         return Err(reader.not_understood("say of what every second one is meant").into());
@@ -194,6 +186,32 @@ pub(crate) fn read(
     made_once(&mut wishes);
     paint_at_once(&mut wishes, &finder);
     Ok(Reading { words: words.to_owned(), wishes })
+}
+
+/// Puts the words of a sentence plainly, one thing at a time, before it is read.
+fn put_plainly(
+    words: &str,
+    lexemes: &mut Vec<Lexeme>,
+    names: &Names<'_>,
+    (stock, streets): (&Stock, &StreetNames),
+) {
+    breaks::in_plain_words(words, lexemes);
+    respelt::in_plain_spelling(words, lexemes);
+    talk::in_plain_words(words, lexemes, names);
+    doubted::in_plain_words(lexemes);
+    retold::in_plain_words(lexemes);
+    slips::correct(words, lexemes, names, stock, streets);
+    spared::in_plain_words(lexemes);
+    phrased::in_plain_words(words, lexemes, names);
+    narrowed::in_plain_words(lexemes);
+    plain::in_plain_words(words, lexemes, names);
+    others::in_plain_words(lexemes);
+    which::in_plain_words(lexemes);
+    whole::in_plain_words(lexemes);
+    passing::leave_out(lexemes);
+    rows::on_both_sides(lexemes, streets);
+    repairs::put_right(lexemes);
+    spoken::name_streets(lexemes, streets);
 }
 
 /// "Eight stools round the fountain, and paint them orange": what is said of new things behind them is how they are made.
@@ -397,6 +415,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(sayings::words())
         .chain(spared::words())
         .chain(likened::words())
+        .chain(chatty::words())
+        .chain(talk::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

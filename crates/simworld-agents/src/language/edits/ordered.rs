@@ -25,10 +25,40 @@ impl Reader<'_> {
         self.at += usize::from(for_me);
         if !self.is_definite(self.at)
             && matches!(self.word(self.at - 1), Some("bring" | "send" | "ship" | "ferry"))
+            || self.brings_new(end)
         {
             return self.additions(end);
         }
         self.moves(end).map(|wish| vec![wish])
+    }
+
+    /// "Wheel a hand cart next to the bin", "heave in a hay bale": what is not here and could be is brought in.
+    fn brings_new(&mut self, end: usize) -> bool {
+        #[rustfmt::skip]
+        const BRINGING: &[&str] = &["heave", "lug", "haul", "wheel", "roll", "drag", "push", "pull", "carry", "cart", "drive", "slide", "trundle", "convey", "tow", "walk", "lead", "shove", "usher", "escort", "steer", "bring", "swing", "hop"];
+        if !self.word(self.at - 1).is_some_and(|word| BRINGING.contains(&word)) {
+            return false;
+        }
+        let particle = usize::from(matches!(
+            self.word(self.at),
+            Some("in" | "over" | "along" | "up" | "out" | "on" | "down")
+        ));
+        let at = self.at + particle;
+        let Some(article) = longest_phrase(
+            &self.lexemes[at..end],
+            &["a", "an", "some", "two", "three", "four", "five", "six", "another"],
+        ) else {
+            return false;
+        };
+        let is_there = (at + article + 1..end)
+            .any(|cut| self.is_place(cut) && self.one_of(at, cut).is_ok_and(|what| self.how_many(&what) > 0));
+        let is_asset = (at + article..end.min(at + article + 3))
+            .any(|noun| self.names.asset_words(&self.lexemes[noun..end]).is_some());
+        let is_new = is_asset && !is_there;
+        if is_new {
+            self.at = at;
+        }
+        is_new
     }
 
     /// "I want a bench", and what else is asked for in such words: a list, what is to come here, a copy, how a thing should be.

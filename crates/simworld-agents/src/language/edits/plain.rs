@@ -132,7 +132,9 @@ fn contracted_is<'a>(written: &str, word: &'a str, next: &str) -> Option<&'a str
     let is_thing = word.len() > 2 && !SHORT.contains(&word);
     // The letter may be gone already.
     let stem = word.strip_suffix('s').unwrap_or(word);
-    (is_owner(written) && is_thing && STATES.contains(&next)).then_some(stem)
+    // A word in the place of another has its letters: "put" for "there's ...".
+    let is_written = written.get(..2).is_some_and(|begin| stem.starts_with(&begin.to_lowercase()));
+    (is_owner(written) && is_thing && is_written && STATES.contains(&next)).then_some(stem)
 }
 
 /// "Bo's parched": somebody by name, and no thing of his behind.

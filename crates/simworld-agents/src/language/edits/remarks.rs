@@ -285,7 +285,7 @@ impl Reader<'_> {
     }
 
     /// Whether somebody or something is said to be or to do something.
-    fn states(&self, from: usize, end: usize) -> bool {
+    pub(super) fn states(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
         let about = longest_phrase(words, SUBJECTS).is_some() || self.one_begins(from, end);
         about

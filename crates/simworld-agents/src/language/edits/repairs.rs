@@ -9,7 +9,7 @@ use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers::{self, NUMERALS};
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
-use super::words::{SKIES, VERBS, WAYS, Way};
+use super::words::{FACTORS, SKIES, VERBS, WAYS, Way};
 
 /// That what follows is meant, and what stood before is not.
 #[rustfmt::skip]
@@ -117,16 +117,70 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
         let cut = (from + 1..end).find(|at| longest_phrase(&lexemes[*at..end], BEHIND) == Some(end - at))?;
         (from, cut, end)
     };
-    let (before, meant) = (&lexemes[..mark], &lexemes[from..to]);
+    let (before, meant) = (&lexemes[..mark], without_make_it(&lexemes[from..to]));
     if meant.is_empty() {
         return None;
     }
+    let meant = &of_what_was_named(before, meant)[..];
     let (start, stop) = replaced(before, meant, is_sure)?;
     let mut right = before[..start].to_vec();
     right.extend(with_its_noun(meant, &before[start..stop]));
     right.extend_from_slice(&before[stop..]);
     right.extend_from_slice(&lexemes[behind..]);
     Some(right)
+}
+
+/// "No, make it purple": the colour, or the size, that is meant.
+fn without_make_it(meant: &[Lexeme]) -> &[Lexeme] {
+    #[rustfmt::skip]
+    const MAKE_IT: &Phrases = &Phrases::of(&["make it", "make that", "make them", "paint it", "paint them", "colour it", "color it", "have it", "let it be", "it should be", "they should be", "go for", "lets go for", "lets make it", "lets have it", "i want it", "better", "rather", "just make it", "please make it", "do it in", "take"]);
+    let Some(rest) = longest_phrase(meant, MAKE_IT).and_then(|words| meant.get(words..)) else {
+        return meant;
+    };
+    let whole = |found: Option<usize>| found == Some(rest.len()) && !rest.is_empty();
+    let is_paint = whole(longest(rest, PAINTS).map(|(_, words)| words));
+    let is_size = whole(longest(rest, &FACTORS).map(|(_, words)| words));
+    if is_paint || is_size { rest } else { meant }
+}
+
+/// "Move the bus north, no, move it south": "it" is what was named in the order that is taken back.
+fn of_what_was_named(before: &[Lexeme], meant: &[Lexeme]) -> Vec<Lexeme> {
+    let mut plain = meant.to_vec();
+    let is_it = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them"].contains(&word.as_str()));
+    let Some((_, verb)) = longest(meant, &VERBS).filter(|(_, verb)| meant.get(*verb).is_some_and(is_it))
+    else {
+        return plain;
+    };
+    let named = (0..before.len()).rev().find_map(|at| {
+        let (_, words) = longest(&before[at..], &VERBS)?;
+        let from = at + words;
+        let the = longest_phrase(before.get(from..)?, &["the", "that", "this", "my", "our"])?;
+        let paint = longest(&before[from + the..], PAINTS).map_or(0, |(_, words)| words);
+        let (_, noun) = category(before.get(from + the + paint..)?)?;
+        Some(before[from..from + the + paint + noun].to_vec())
+    });
+    if let Some(named) = named {
+        plain.splice(verb..=verb, named);
+    }
+    plain
+}
+
+/// Of a colour or a size what it takes the place of.
+fn look_before(before: &[Lexeme], meant: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
+    let last = |fits: &dyn Fn(usize) -> Option<usize>| {
+        (clause..before.len()).rev().find_map(|at| fits(at).map(|words| (at, at + words)))
+    };
+    if longest(meant, PAINTS).is_some() {
+        return last(&|at| longest(&before[at..], PAINTS).map(|(_, words)| words));
+    }
+    let (from, to) = last(&|at| longest(&before[at..], &FACTORS).map(|(_, words)| words))?;
+    Some((whole_factor(before, from), to))
+}
+
+/// Whether some words are a colour or a size, and no more.
+fn is_look(meant: &[Lexeme]) -> bool {
+    longest(meant, PAINTS).is_some_and(|(_, words)| words == meant.len())
+        || longest(meant, &FACTORS).is_some_and(|(_, words)| words == meant.len())
 }
 
 /// How many words say once more that something is taken back, before what is meant.
@@ -150,8 +204,12 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
             numbers::number(&before[at..]).filter(|_| is_number(&before[at])).map(|(_, words)| words)
         });
     }
-    if longest(meant, PAINTS).is_some_and(|(_, words)| words == meant.len()) {
-        return last(&|at| longest(&before[at..], PAINTS).map(|(_, words)| words));
+    if is_look(meant) {
+        return look_before(before, meant, clause);
+    }
+    // "A white tent, no, a red one".
+    if let Some(found) = new_coloured_before(before, meant, clause) {
+        return Some(found);
     }
     if longest(meant, &SKIES).is_some() {
         return last(&|at| longest(&before[at..], &SKIES).map(|(_, words)| words)).or(Some((clause, all)));
@@ -226,6 +284,27 @@ fn coloured_before(before: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
         let (_, noun) = category(&before[at + 1 + paint..])?;
         Some((at, at + 1 + paint + noun))
     })
+}
+
+/// Behind "a red one" the last new thing before that is told by its colour, up to one word behind it: "a white tent".
+fn new_coloured_before(before: &[Lexeme], meant: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
+    let [a, paint @ .., one] = meant else { return None };
+    let is_coloured = matches!(&a.token, Token::Word(word) if word == "a" || word == "an")
+        && one.token == Token::Word("one".to_owned())
+        && longest(paint, PAINTS).is_some_and(|(_, words)| words == paint.len());
+    (clause..before.len()).rev().filter(|_| is_coloured).find_map(|at| {
+        longest_phrase(&before[at..], &["a", "an"])?;
+        let (_, paint) = longest(&before[at + 1..], PAINTS)?;
+        let end = at + 1 + paint + 1;
+        matches!(before.get(end - 1)?.token, Token::Word(_)).then_some((at, end))
+    })
+}
+
+/// The first word of a size of several words that ends in a shorter one: "three times as big".
+fn whole_factor(before: &[Lexeme], from: usize) -> usize {
+    (from.saturating_sub(4)..from)
+        .find(|at| longest(&before[*at..], &FACTORS).is_some_and(|(_, words)| at + words > from))
+        .unwrap_or(from)
 }
 
 /// A noun without an article has no more words than that.

@@ -59,7 +59,8 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["it gives"], "there is"), (&["in direction"], "to the"), (&["hold on to"], "keep"),
     (&["half as big again", "half again as big", "half as large again", "half again as large", "half as tall again", "half again as tall"], "half bigger"), (&["remove of"], "remove"), (&["delete of"], "delete"),
     (&["me please"], "me"), (&["us please"], "us"), (&["goes by the name of", "go by the name"], "should be called"),
-    (&["likes of"], ""), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why", "which is exactly why", "thats exactly why", "which is precisely why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
+    (&["likes of"], ""), (&["in the near of", "in the nearness of", "at the near of", "in near of", "in the proximity of", "nearby to", "nearby of", "close by to"], "near"), (&["in the front of"], "in front of"), (&["in the back of"], "behind"),
+    (&["is it possible to having", "is it possible having", "would it be possible having", "is possible to have", "it is possible to have", "is it possible we have", "is it possible we get", "could it be possible to have", "is it maybe possible to have"], "there should be"), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why", "which is exactly why", "thats exactly why", "which is precisely why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
 ];
 
 /// Puts dialect and short forms into the words that are known, and leaves names as they are.

@@ -8,6 +8,7 @@ use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
+use super::chatty::{CHATTY, CHATTY_FIRST};
 use super::forms::{word_at, words_at};
 use super::parse::Reader;
 use super::polite::CODA;
@@ -54,7 +55,7 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
     }
-    *lexemes = told_by(lexemes, &[BEFORE_ALL]);
+    *lexemes = told_by(lexemes, &[BEFORE_ALL, CHATTY_FIRST]);
 }
 
 /// What begins a clause that says why or what for, behind a request.
@@ -302,7 +303,7 @@ type Turns = [(&'static str, &'static str)];
 
 /// Each sentence by the turns of phrase of all tables.
 fn told_plainly(lexemes: &[Lexeme]) -> Vec<Lexeme> {
-    told_by(lexemes, &[TURNS, SAYINGS])
+    told_by(lexemes, &[TURNS, SAYINGS, CHATTY])
 }
 
 /// Each sentence by the first turn of phrase that it is, two of them at most.
