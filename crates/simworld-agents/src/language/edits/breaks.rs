@@ -46,7 +46,12 @@ fn commas_for_dashes(words: &str, lexemes: &mut Vec<Lexeme>) {
         let between = words.get(lexemes[at - 1].end..lexemes[at].start).unwrap_or_default();
         let is_dash =
             between.contains('—') || [" - ", " – ", " -- "].iter().any(|dash| between.contains(dash));
-        if (is_dash || hides_sound(between)) && !is_mark(&lexemes[at - 1]) && !is_mark(&lexemes[at]) {
+        // "The van, hmm, paint the van green" goes on.
+        let is_no_order = longest(&lexemes[at..], &super::words::VERBS).is_none();
+        if (is_dash || hides_sound(between) && is_no_order)
+            && !is_mark(&lexemes[at - 1])
+            && !is_mark(&lexemes[at])
+        {
             let mark = Lexeme { token: Token::Comma, lemma: None, ..lexemes[at - 1].clone() };
             lexemes.insert(at, mark);
             at += 1;
