@@ -125,28 +125,42 @@ impl VehicleManager {
         self.wishes.sort_unstable_by(|a, b| {
             a.cluster.cmp(&b.cluster).then(b.stood.total_cmp(&a.stood)).then(a.id.cmp(&b.id))
         });
-        self.wishes.dedup_by_key(|wish| wish.cluster);
         let wishes = std::mem::take(&mut self.wishes);
-        for Wish { cluster, id, way, .. } in &wishes {
-            let (cluster, id) = (*cluster, *id);
-            // One who has long waited for room behind the cluster may wait for somebody before it: he comes in if he leaves him
-            // his way.
-            let lacks_room = |id: u32| {
-                let first = self.find(tracks, id).map(|(_, vehicle, _)| vehicle);
-                first.is_some_and(|first| {
-                    let meets =
-                        || tracks.conflicts[first.next as usize].iter().any(|other| other.way == *way);
-                    self.waits_for(tracks, config, first).is_some() && !meets()
-                })
-            };
-            let is_taken = |permit: &Permit| permit.cluster == cluster && !lacks_room(permit.id);
-            if !permits.iter().any(is_taken) {
+        for asking in wishes.chunk_by(|a, b| a.cluster == b.cluster) {
+            let held = || permits.iter().filter(|permit| permit.cluster == asking[0].cluster);
+            // Who keeps the holder of a permit from going on comes before all who have waited longer.
+            let (mut first, mut in_the_way) = (None, None);
+            for wish in
+                asking.iter().filter(|wish| held().all(|permit| self.lets_in(tracks, config, permit, wish)))
+            {
+                first = first.or(Some(wish));
+                if held().any(|permit| self.is_kept_by(tracks, config, permit, wish)) {
+                    in_the_way = Some(wish);
+                    break;
+                }
+            }
+            if let Some(Wish { cluster, id, .. }) = in_the_way.or(first).copied() {
                 permits.push(Permit { id, cluster, is_used: false, unused: 0.0 });
             }
         }
         self.permits = permits;
         self.wishes = wishes;
         self.wishes.clear();
+    }
+
+    /// Whether the holder of a permit leaves another his way into the cluster: one who has long waited for room behind it may wait for
+    /// somebody before it.
+    fn lets_in(&self, tracks: &Tracks, config: &TrafficConfig, permit: &Permit, wish: &Wish) -> bool {
+        let Some((_, holder, _)) = self.find(tracks, permit.id) else { return false };
+        let meets = || tracks.conflicts[holder.next as usize].iter().any(|other| other.way == wish.way);
+        self.waits_for(tracks, config, holder).is_some() && !meets()
+    }
+
+    /// Whether the holder of a permit waits for room where another stands.
+    fn is_kept_by(&self, tracks: &Tracks, config: &TrafficConfig, permit: &Permit, wish: &Wish) -> bool {
+        let holder =
+            self.find(tracks, permit.id).and_then(|(_, holder, _)| self.waits_for(tracks, config, holder));
+        holder.is_some_and(|lane| self.find(tracks, wish.id).is_some_and(|(track, ..)| track == lane))
     }
 
     /// Whether saved permits are of this network.

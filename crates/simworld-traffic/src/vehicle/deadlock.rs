@@ -5,6 +5,7 @@
 //! another way with room, which they take; if none has, all of them may enter their junctions at once without room behind: as
 //! all go, each makes the room of the one behind it. Nobody jumps, and all other rules of crossing hold.
 
+use super::clock::Moment;
 use super::junction::is_room;
 use super::manager::{EXIT, NONE, STANDING, Vehicle, VehicleManager};
 use super::part::Tail;
@@ -46,16 +47,23 @@ impl Waits {
     }
 }
 
+/// Whether a second ends with a step of `dt` s. Times are reckoned from the number of steps: with those that a step is added to or
+/// taken from, rounding passes over whole rows of seconds.
+fn is_due(step: u64, dt: f64) -> bool {
+    let second = |step: u64| (step as f64 * dt / EVERY).floor();
+    second(step) != second(step + 1)
+}
+
 impl VehicleManager {
     /// Finds the locks there are, once a second, and undoes them.
     pub(super) fn unlock(
         &mut self,
         tracks: &Tracks,
         config: &TrafficConfig,
-        (now, dt): (f64, f64),
+        at: Moment,
         counters: &mut Counters,
     ) {
-        if (now / EVERY).floor() == ((now - dt) / EVERY).floor() {
+        if !is_due(at.step, at.dt) {
             return;
         }
         let mut waits = std::mem::take(&mut self.waits);
@@ -164,6 +172,18 @@ mod tests {
     fn rings(edges: &[(Track, Track)]) -> Vec<Track> {
         let mut waits = Waits { edges: edges.iter().map(|edge| (edge.0, edge.1, 0)).collect() };
         (0..edges.len()).filter_map(|start| waits.ring_from(start)).collect()
+    }
+
+    #[test]
+    fn locks_are_looked_for_in_every_second() {
+        // A clock that counts microseconds makes the second of a tenth.
+        for dt in [0.1, 100_000.0 * 1e-6, 0.04, 0.25, 1.0 / 3.0, 1.0 / 60.0] {
+            let steps = (4000.5 / dt) as u64;
+            let due: Vec<u64> = (0..steps).filter(|step| is_due(*step, dt)).collect();
+            assert_eq!(due.len(), 4000, "with steps of {dt} s");
+            let apart = due.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * dt);
+            assert!(apart.clone().all(|apart| (apart - EVERY).abs() < 1.01 * dt), "with steps of {dt} s");
+        }
     }
 
     #[test]

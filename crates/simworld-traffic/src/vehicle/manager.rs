@@ -366,7 +366,7 @@ impl VehicleManager {
         counters: &mut Counters,
         workers: &dyn Workers,
     ) {
-        self.unlock(tracks, config, (at.now, at.dt), counters);
+        self.unlock(tracks, config, at, counters);
         self.steer(tracks, config, streams);
         self.come_round(tracks, config, streams);
         self.mind_haste(config);
