@@ -23,6 +23,11 @@ const IN_LANE: f64 = 2.0;
 const NEARLY_IN: f64 = 1.5;
 /// Who has stood beside one's rear for so long, while one waited, lets one go first, s.
 const LETS_GO: f64 = 4.0;
+/// Who comes from so far beside its lane crosses another to it, m; and waits for those in it who would be there within a time, s, going
+/// at least this fast, m/s.
+const ACROSS: f64 = 2.5;
+const MEETS: f64 = 6.0;
+const ROLLS: f64 = 4.0;
 /// Least room before and behind, m, and time to whoever is before or behind one, s.
 const ROOM: f64 = 2.0;
 const AHEAD: f64 = 0.5;
@@ -121,6 +126,10 @@ fn has_gap(network: &RoadNetwork, own: &Own<'_>, around: &[Seen], change: &Chang
     let Some(here) = polyline::closest(&line, &own.at) else { return false };
     let (rear, front) = (here.station - own.half_length, here.station + own.half_length);
     let v = own.speed.max(0.0);
+    let crosses = change.from == change.to && here.distance > ACROSS;
+    if crosses && around.iter().any(|other| comes_between(&line, here.station, here.distance, other)) {
+        return false;
+    }
     around.iter().filter(|other| other.kind.is_mobile()).all(|other| {
         let in_lane = if other.walks() || other.kind.is_vehicle() && other.stands() {
             polyline::closest(&line, &other.at)
@@ -144,4 +153,18 @@ fn has_gap(network: &RoadNetwork, own: &Own<'_>, around: &[Seen], change: &Chang
             false
         }
     })
+}
+
+/// Whether a vehicle comes towards one between one's place, at a station of a lane and so far beside it, m, and the lane.
+fn comes_between(lane: &[Point2], station: f64, beside: f64, other: &Seen) -> bool {
+    if !other.kind.is_vehicle() || other.stands() {
+        return false;
+    }
+    let Some(near) = polyline::closest(lane, &other.at).filter(|near| near.distance < beside + IN_LANE)
+    else {
+        return false;
+    };
+    let along = simworld_core::geometry::direction(polyline::at(lane, near.station).1).dot(&other.ahead);
+    let away = near.station - other.half_length - station;
+    along < -0.5 && near.station > station && away < MEETS * other.speed().max(ROLLS)
 }

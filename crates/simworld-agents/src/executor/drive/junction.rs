@@ -346,7 +346,7 @@ impl Crossing<'_> {
         }
         let begin = line.station + junction.length;
         let needed = self.own.half_length * 2.0 + GAP;
-        if next.is_some_and(|(station, light)| light == Light::Stop && station - begin < needed) {
+        if next.is_some_and(|next| self.is_full(line, begin, needed, next)) {
             return true;
         }
         let beyond = polyline::slice(self.path, begin, begin + needed + 10.0);
@@ -356,6 +356,19 @@ impl Crossing<'_> {
             let rear = if station > 0.0 { station - other.half_length } else { 0.0 };
             rear + 2.0 * other.speed() < needed
         })
+    }
+
+    /// Whether the room between a junction and the next line is too short for one and for all who go ahead, since they must stand there.
+    fn is_full(&self, line: &Line, begin: f64, needed: f64, (station, light): (f64, Light)) -> bool {
+        let ahead = polyline::slice(self.path, line.station, station);
+        let queue =
+            self.around.iter().filter(|other| other.kind.is_vehicle() && other.along(&ahead, 1.5).is_some());
+        let taken: f64 = queue.map(|other| 2.0 * other.half_length + GAP).sum();
+        match light {
+            Light::Free => false,
+            Light::Ends => taken > 0.0 && station - begin < taken + needed,
+            Light::Stop => station - begin < taken + needed,
+        }
     }
 
     /// Whether those on a way that meets one's own, and before it, leave time to cross.

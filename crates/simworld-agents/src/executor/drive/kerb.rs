@@ -21,6 +21,8 @@ const GAP: f64 = 2.0;
 const APPROACH: f64 = 11.0;
 /// How far from where one wants to be one looks for a place, m.
 const NEARBY: f64 = 80.0;
+/// Who pulls in swings its nose out to the right by so much, m, before it stands straight.
+const SWING: f64 = 0.5;
 /// Nearer to the middle of the lane than this one need not pull in, m.
 const ASIDE: f64 = 0.5;
 /// Nobody parks so near a junction, m.
@@ -71,7 +73,8 @@ impl Berth {
             };
             let (along, across) = (span(|c| c.0), span(|c| c.1));
             let half = size.1 * 0.5 + 0.1;
-            free = along.1 < -behind || along.0 > reach || across.1 < -half || across.0 > half;
+            let swing = if self.aside > ASIDE && along.1 < -size.0 * 0.5 { SWING } else { 0.0 };
+            free = along.1 < -behind || along.0 > reach || across.1 < -half - swing || across.0 > half;
             if free { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         free

@@ -173,7 +173,9 @@ impl Driving {
 
     /// Whether the way round is free of things, nobody comes towards one before one is back, and nobody from behind.
     fn is_clear(&self, own: &Own<'_>, around: &[Seen], begin: f64, end: f64, aside: f64) -> bool {
-        let corridor = polyline::offset(&polyline::slice(&self.path, begin, end), aside);
+        // What is beside one already is left behind.
+        let first = begin.max(self.station + own.half_length).min(end);
+        let corridor = polyline::offset(&polyline::slice(&self.path, first, end), aside);
         let time = (end - self.station.min(begin)) / PASSES_AT + SPARE;
         around.iter().all(|other| {
             let in_way = other.corners.iter().any(|corner| {

@@ -31,8 +31,10 @@ const TAKES: f64 = 10.0;
 const NEAR: f64 = 2.0;
 /// After so long without a gap one begins all the same, when nobody comes within half the time, s.
 const IMPATIENT: f64 = 60.0;
-/// One who has not come round in so long does not, s.
+/// One who has not come round in so long does not, s, and tries to come back; among cars that stand there may be room later, so that it
+/// is tried to and fro so often.
 const FAILED: f64 = 150.0;
+const TURNS_BACK: u32 = 3;
 
 /// The gear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,8 +52,8 @@ pub(super) struct Turning {
     /// The lane that leads back, and the one that one came by.
     back: LaneId,
     from: LaneId,
-    /// Whether there was no room to come round, and one turns to where one looked before.
-    gave_up: bool,
+    /// How often there was no room to come round, and one turned to where one looked before.
+    gave_up: u32,
     gear: Gear,
     /// How long it has taken, s, and how far one has gone in this gear, m.
     spent: f64,
@@ -77,7 +79,7 @@ impl Turning {
             road: id,
             back,
             from: on,
-            gave_up: false,
+            gave_up: 0,
             gear: Gear::Waits,
             spent: 0.0,
             gone: 0.0,
@@ -139,14 +141,14 @@ impl Turning {
         near.map_or_else(|| -own.ahead, |near| direction(polyline::at(path, near.station).1))
     }
 
-    /// Turns to where one looked before, so that one does not drive on from across the street; false if that was tried.
+    /// Turns to where one looked before, so that one does not drive on from across the street; false if that was tried often enough.
     fn give_up(&mut self) -> bool {
-        if self.gave_up {
+        if self.gave_up >= TURNS_BACK {
             return false;
         }
         std::mem::swap(&mut self.back, &mut self.from);
         (self.gear, self.spent, self.gone, self.side) = (Gear::Waits, 0.0, 0.0, -self.side);
-        self.gave_up = true;
+        self.gave_up += 1;
         true
     }
 
