@@ -31,7 +31,8 @@ pub(super) const CHATTY_FIRST: &[(&str, &str)] = &[
     ("P building|house|shop|store|place whose door is|stands|stays|was locked|closed|shut Q", "P building nearest to the locked door Q"),
     ("P building|house|shop|store|place where|that|which the|has|with|had its|a|the|- door is|stands|stays|was open|unlocked|ajar Q", "P building nearest to the open door Q"),
     ("P building|house|shop|store|place where|that|which the|has|with|had its|a|the|- door is|stands|stays|was locked Q", "P building nearest to the locked door Q"),
-    ("P building|house|shop|store|place that|which is|stays|stands locked|unlocked|open Q", "P building nearest to the locked door Q"),
+    ("P building|house|shop|store|place that|which is|stays|stands locked Q", "P building nearest to the locked door Q"),
+    ("P building|house|shop|store|place that|which is|stays|stands unlocked Q", "P building nearest to the open door Q"),
     // Where there is room.
     ("theres|there is|are|- some|a|an|so|loads|plenty|heaps|- much|lot|lots|plenty|bit|of|- of|- nice|empty|free|open|unused|spare|big|perfect|good|lovely|bare|- space|room|spot|gap|corner|area|patch|place W , so|and|- please|- could|can|why|- you|we|dont|- you|- put|add|place|set|stick|plant|build|park|stand|pop|plonk|chuck|throw|have|want|need D A there|in|- there|it|-", "put D A W"),
     // What would be good.

@@ -106,7 +106,7 @@ impl Reader<'_> {
     fn says_how(&self, from: usize, at: usize, end: usize) -> bool {
         let rest = &self.lexemes[at.min(end)..end];
         let mark = (at..end).find(|at| is_mark(&self.lexemes[*at])).unwrap_or(end);
-        let how = longest_phrase(rest, &["towards", "toward", "to", "around", "green again"]).is_some()
+        let how = longest_phrase(rest, &["towards", "toward", "to", "around"]).is_some()
             || longest(rest, super::super::paint::PAINTS).is_some()
             || self.is_place(at);
         how && !self.states(from, mark)
