@@ -128,18 +128,16 @@ impl VehicleManager {
         let wishes = std::mem::take(&mut self.wishes);
         for asking in wishes.chunk_by(|a, b| a.cluster == b.cluster) {
             let held = || permits.iter().filter(|permit| permit.cluster == asking[0].cluster);
-            // Who keeps the holder of a permit from going on comes before all who have waited longer.
-            let (mut first, mut in_the_way) = (None, None);
-            for wish in
-                asking.iter().filter(|wish| held().all(|permit| self.lets_in(tracks, config, permit, wish)))
-            {
-                first = first.or(Some(wish));
-                if held().any(|permit| self.is_kept_by(tracks, config, permit, wish)) {
-                    in_the_way = Some(wish);
-                    break;
-                }
+            if held().any(|permit| self.lacks(tracks, config, permit).is_none()) {
+                continue;
             }
-            if let Some(Wish { cluster, id, .. }) = in_the_way.or(first).copied() {
+            let mut let_in =
+                asking.iter().filter(|wish| held().all(|permit| !self.is_met(tracks, permit, wish)));
+            // Who keeps the holder of a permit from going on comes before all who have waited longer.
+            let mut kept_by = let_in.clone();
+            let in_the_way =
+                kept_by.find(|wish| held().any(|permit| self.is_kept_by(tracks, config, permit, wish)));
+            if let Some(Wish { cluster, id, .. }) = in_the_way.or_else(|| let_in.next()).copied() {
                 permits.push(Permit { id, cluster, is_used: false, unused: 0.0 });
             }
         }
@@ -148,19 +146,25 @@ impl VehicleManager {
         self.wishes.clear();
     }
 
-    /// Whether the holder of a permit leaves another his way into the cluster: one who has long waited for room behind it may wait for
-    /// somebody before it.
-    fn lets_in(&self, tracks: &Tracks, config: &TrafficConfig, permit: &Permit, wish: &Wish) -> bool {
-        let Some((_, holder, _)) = self.find(tracks, permit.id) else { return false };
-        let meets = || tracks.conflicts[holder.next as usize].iter().any(|other| other.way == wish.way);
-        self.waits_for(tracks, config, holder).is_some() && !meets()
+    /// The lane for room on which the holder of a permit has long waited: it may wait for somebody before its cluster, who comes in if he
+    /// leaves it its way.
+    fn lacks(&self, tracks: &Tracks, config: &TrafficConfig, permit: &Permit) -> Option<Track> {
+        let (_, holder, _) = self.find(tracks, permit.id)?;
+        self.waits_for(tracks, config, holder)
+    }
+
+    /// Whether another would meet the holder of a permit, who waits for room, on his way.
+    fn is_met(&self, tracks: &Tracks, permit: &Permit, wish: &Wish) -> bool {
+        let holder = self.find(tracks, permit.id);
+        holder.is_none_or(|(_, holder, _)| {
+            tracks.conflicts[holder.next as usize].iter().any(|other| other.way == wish.way)
+        })
     }
 
     /// Whether the holder of a permit waits for room where another stands.
     fn is_kept_by(&self, tracks: &Tracks, config: &TrafficConfig, permit: &Permit, wish: &Wish) -> bool {
-        let holder =
-            self.find(tracks, permit.id).and_then(|(_, holder, _)| self.waits_for(tracks, config, holder));
-        holder.is_some_and(|lane| self.find(tracks, wish.id).is_some_and(|(track, ..)| track == lane))
+        let lane = self.lacks(tracks, config, permit);
+        lane.is_some_and(|lane| self.find(tracks, wish.id).is_some_and(|(track, ..)| track == lane))
     }
 
     /// Whether saved permits are of this network.
