@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 18] = [
+const SETS: [&str; 19] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -52,6 +52,7 @@ const SETS: [&str; 18] = [
     "sixteenth",
     "seventeenth",
     "eighteenth",
+    "nineteenth",
 ];
 
 /// One thing that is said, and what it means.
