@@ -16,23 +16,14 @@ const SMALLEST_CELL: f64 = 8.0;
 /// Width of the tree at the start, m; it doubles when an entry lies outside.
 const FIRST_WIDTH: f64 = 32_768.0;
 
-#[derive(Clone, Debug)]
-struct Node {
+/// Where a node is.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
     center: Point2,
     width: f64,
-    parent: u32,
-    children: [u32; 4],
-    /// Entries of this cell, ascending.
-    entries: Vec<u32>,
-    /// Entries of this cell and of all below.
-    occupied: u32,
 }
 
-impl Node {
-    fn new(center: Point2, width: f64, parent: u32) -> Self {
-        Self { center, width, parent, children: [NONE; 4], entries: Vec::new(), occupied: 0 }
-    }
-
+impl Cell {
     /// Whether an entry of this cell or below may touch the region.
     fn reaches(&self, region: &Aabb) -> bool {
         let reach = self.width; // half the cell, and half a cell more
@@ -41,12 +32,44 @@ impl Node {
             && self.center.y - reach <= region.max.y
             && region.min.y <= self.center.y + reach
     }
+
+    /// One of its quarters: south-west, south-east, north-west, north-east.
+    fn quarter(&self, quadrant: usize) -> Self {
+        let (width, shift) = (self.width * 0.5, self.width * 0.25);
+        let toward = |is_upper: bool| if is_upper { shift } else { -shift };
+        let (east, north) = (toward(quadrant & 1 == 1), toward(quadrant & 2 == 2));
+        Self { center: Point2::new(self.center.x + east, self.center.y + north), width }
+    }
+
+    /// The quarter in which a place is.
+    fn quadrant(&self, place: &Point3) -> usize {
+        usize::from(place.x >= self.center.x) + 2 * usize::from(place.y >= self.center.y)
+    }
+}
+
+/// What a visit reads of a node; where the node is follows from the way down to it.
+#[derive(Clone, Debug)]
+struct Node {
+    children: [u32; 4],
+    /// Entries of this cell, ascending.
+    entries: Vec<u32>,
+    /// Entries of this cell and of all below.
+    occupied: u32,
+    parent: u32,
+}
+
+impl Node {
+    const fn new(parent: u32) -> Self {
+        Self { children: [NONE; 4], entries: Vec::new(), occupied: 0, parent }
+    }
 }
 
 /// The tree over entries numbered by the caller; each entry brings its box.
 #[derive(Clone, Debug)]
 pub(crate) struct Quadtree {
     nodes: Vec<Node>,
+    /// Where each of them is: those who move ask, and visits do not.
+    cells: Vec<Cell>,
     /// The node of each entry, `NONE` if absent.
     home: Vec<u32>,
 }
@@ -60,12 +83,13 @@ impl Default for Quadtree {
 impl Quadtree {
     /// An empty tree of that width, m, centred on the origin.
     pub(crate) fn with_width(width: f64) -> Self {
-        Self { nodes: vec![Node::new(Point2::origin(), width, NONE)], home: Vec::new() }
+        let cell = Cell { center: Point2::origin(), width };
+        Self { nodes: vec![Node::new(NONE)], cells: vec![cell], home: Vec::new() }
     }
 
     /// The width of the whole tree, m; part of a snapshot, because the order of visits depends on it.
     pub(crate) fn width(&self) -> f64 {
-        self.nodes[0].width
+        self.cells[0].width
     }
 
     /// Whether the box can be filed without growing the tree.
@@ -117,23 +141,34 @@ impl Quadtree {
     where
         F: FnMut(u32) -> ControlFlow<()>,
     {
-        self.visit_node(0, region, min_extent, visitor)
+        self.visit_node(0, &self.cells[0], region, min_extent, visitor)
     }
 
-    fn visit_node<F>(&self, node: u32, region: &Aabb, min_extent: f64, visitor: &mut F) -> ControlFlow<()>
+    fn visit_node<F>(
+        &self,
+        node: u32,
+        cell: &Cell,
+        region: &Aabb,
+        min_extent: f64,
+        visitor: &mut F,
+    ) -> ControlFlow<()>
     where
         F: FnMut(u32) -> ControlFlow<()>,
     {
+        // A node that is too small or too far away is not even looked up.
+        if cell.width < min_extent || !cell.reaches(region) {
+            return ControlFlow::Continue(());
+        }
         let node = &self.nodes[node as usize];
-        if node.occupied == 0 || node.width < min_extent || !node.reaches(region) {
+        if node.occupied == 0 {
             return ControlFlow::Continue(());
         }
         for entry in &node.entries {
             visitor(*entry)?;
         }
-        for child in node.children {
+        for (quadrant, child) in node.children.into_iter().enumerate() {
             if child != NONE {
-                self.visit_node(child, region, min_extent, visitor)?;
+                self.visit_node(child, &cell.quarter(quadrant), region, min_extent, visitor)?;
             }
         }
         ControlFlow::Continue(())
@@ -141,32 +176,28 @@ impl Quadtree {
 
     /// Whether an entry of that extent and centre belongs to this very node.
     fn is_home(&self, node: u32, extent: f64, center: &Point3) -> bool {
-        let node = &self.nodes[node as usize];
-        let half = node.width * 0.5;
+        let cell = &self.cells[node as usize];
+        let half = cell.width * 0.5;
         let inside = |offset: f64| -half <= offset && offset < half;
-        extent <= node.width
+        extent <= cell.width
             && (extent > half || half < SMALLEST_CELL)
-            && inside(center.x - node.center.x)
-            && inside(center.y - node.center.y)
+            && inside(center.x - cell.center.x)
+            && inside(center.y - cell.center.y)
     }
 
     fn find_or_make(&mut self, extent: f64, center: &Point3) -> u32 {
         let mut current = 0;
         loop {
-            let node = &self.nodes[current as usize];
-            let half = node.width * 0.5;
+            let cell = self.cells[current as usize];
+            let half = cell.width * 0.5;
             if extent > half || half < SMALLEST_CELL {
                 return current;
             }
-            let east = usize::from(center.x >= node.center.x);
-            let north = usize::from(center.y >= node.center.y);
-            let quadrant = east + 2 * north;
-            if node.children[quadrant] == NONE {
-                let quarter = half * 0.5;
-                let toward = |side: usize| if side == 1 { quarter } else { -quarter };
-                let child_center = Point2::new(node.center.x + toward(east), node.center.y + toward(north));
+            let quadrant = cell.quadrant(center);
+            if self.nodes[current as usize].children[quadrant] == NONE {
                 let child = u32::try_from(self.nodes.len()).expect("fewer than 2^32 cells fit in memory");
-                self.nodes.push(Node::new(child_center, half, current));
+                self.nodes.push(Node::new(current));
+                self.cells.push(cell.quarter(quadrant));
                 self.nodes[current as usize].children[quadrant] = child;
             }
             current = self.nodes[current as usize].children[quadrant];

@@ -66,7 +66,8 @@ pub struct World {
     twists: Vec<Twist>,
     bounds: Vec<Aabb>,
     infos: Vec<Option<EntityInfo>>,
-    bonds: Vec<Option<Attachment>>,
+    /// Few things hang on others: the rest is looked through without their bonds.
+    bonds: Vec<Option<Box<Attachment>>>,
     digests: Digests,
     journal: Journal,
     /// Free slots; the last is taken first.
@@ -219,7 +220,7 @@ impl World {
         let slot = id.index();
         let carried: Vec<u32> = self.bonded.clone();
         for child in carried {
-            if self.bonds[child as usize].is_some_and(|bond| bond.parent == id) {
+            if self.bonds[child as usize].as_ref().is_some_and(|bond| bond.parent == id) {
                 self.set_bond(child as usize, None);
             }
         }

@@ -2,7 +2,7 @@
 
 use simworld_core::geometry::{Point2, Vector2, direction};
 use simworld_core::id::LaneId;
-use simworld_core::net::{Aspect, RoadNetwork, polyline};
+use simworld_core::net::{Aspect, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
 use super::Driving;
@@ -111,44 +111,48 @@ impl Driving {
                 self.backing = BACK;
             }
             self.bend((begin.max(self.station - BACK), end), aside, ramp);
-        } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
-            self.drive_round(scene, network, vehicle, own, obstacle);
-        } else if self.lines.first().is_some_and(|line| line.is_passed)
-            || obstacle.comes
-            || is_hemmed_in(own, around)
-        {
+            return;
+        }
+        let is_time = queue || self.tries.is_multiple_of(PATIENCE);
+        let goes_round = is_time && self.drive_round(scene, vehicle, own, obstacle);
+        if !goes_round && (self.is_in_junction() || obstacle.comes || is_hemmed_in(own, around)) {
             // Two who stand nose to nose both wait for the other to go, and so do one who has swung out and who stands beside it.
             self.back_off(own, around);
         }
     }
 
-    /// Takes other roads; from the street itself one turns back.
+    /// Whether one's rear, at least, is between a line and the end of the way across behind it.
+    fn is_in_junction(&self) -> bool {
+        self.lines.first().is_some_and(|line| line.is_passed)
+    }
+
+    /// Takes other roads; from the street itself one turns back, but not across a junction. Whether there is such a way.
     fn drive_round(
         &mut self,
         scene: &dyn Scene,
-        network: &RoadNetwork,
         vehicle: &EntityRef<'_>,
         own: &Own<'_>,
         obstacle: &Obstacle,
-    ) {
+    ) -> bool {
+        let Some(network) = scene.roads() else { return false };
         let (point, heading) = polyline::at(&self.path, obstacle.begin);
         let leg = |at: Point2, heading: f64| -> Option<LaneId> {
             beside(network, lane_at(network, at, Some(heading))?.lane).first().copied()
         };
-        let Some(blocked) = leg(point, heading) else { return };
+        let Some(blocked) = leg(point, heading) else { return false };
         let mut closed = self.closed.clone();
         closed.push(blocked);
         let here = polyline::at(&self.path, self.station);
         if leg(here.0, here.1) == Some(blocked) {
             // There is no other way on; perhaps there is one back.
-            self.turning = Turning::begin(network, own, blocked);
+            self.turning = if self.is_in_junction() { None } else { Turning::begin(network, own, blocked) };
             if self.turning.is_some() {
                 self.closed = closed;
             }
-            return;
+            return self.turning.is_some();
         }
         let wish = Wish { closed, ..Wish::to(self.goal) };
-        let _ = self.renew(scene, vehicle, own, wish);
+        self.renew(scene, vehicle, own, wish).is_ok()
     }
 
     /// Moves the path to the left between two stations.

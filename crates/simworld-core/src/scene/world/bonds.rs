@@ -21,7 +21,7 @@ impl World {
             self.check_bond(child, bond)?;
             check_pose(&(self.poses[bond.parent.index()] * bond.parent_from_body))?;
         }
-        let old = self.bonds[child.index()];
+        let old = self.bonds[child.index()].as_deref().copied();
         self.bond(child, bond);
         Ok(old)
     }
@@ -94,7 +94,7 @@ impl World {
             if ancestor == carrier {
                 return true;
             }
-            above = self.bonds.get(ancestor.index()).copied().flatten().map(|bond| bond.parent);
+            above = self.bonds.get(ancestor.index()).and_then(Option::as_ref).map(|bond| bond.parent);
         }
         false
     }
@@ -120,7 +120,8 @@ impl World {
             let slot = self.bonded[index] as usize;
             let pose = self.carried_pose(slot);
             let id = EntityId::new(slot as u32, self.generations[slot]);
-            let twist = self.bonds[slot].map_or(Twist::ZERO, |bond| self.twists[bond.parent.index()]);
+            let carrier = self.bonds[slot].as_ref().map(|bond| bond.parent.index());
+            let twist = carrier.map_or(Twist::ZERO, |carrier| self.twists[carrier]);
             if pose != self.poses[slot] || twist != self.twists[slot] {
                 self.twists[slot] = twist;
                 self.place(id, pose);
@@ -136,7 +137,11 @@ impl World {
     }
 
     pub(super) fn set_bond(&mut self, slot: usize, bond: Option<Attachment>) {
-        self.bonds[slot] = bond;
+        match (&mut self.bonds[slot], bond) {
+            // In its place: what is held anew in each step allocates nothing.
+            (Some(old), Some(bond)) => **old = bond,
+            (old, bond) => *old = bond.map(Box::new),
+        }
         match (self.bonded.binary_search(&(slot as u32)), bond) {
             (Err(position), Some(_)) => self.bonded.insert(position, slot as u32),
             (Ok(position), None) => {

@@ -104,7 +104,7 @@ impl Scene for World {
 
     fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
         for slot in &self.bonded {
-            if self.bonds[*slot as usize].is_some_and(|bond| bond.parent == parent)
+            if self.bonds[*slot as usize].as_ref().is_some_and(|bond| bond.parent == parent)
                 && let Some(entity) = self.in_slot(*slot as usize)
             {
                 visitor(entity);

@@ -109,7 +109,7 @@ impl World {
             twist: &self.twists[slot],
             bounds: &self.bounds[slot],
             info,
-            attachment: self.bonds[slot].as_ref(),
+            attachment: self.bonds[slot].as_deref(),
         })
     }
 }
