@@ -41,8 +41,8 @@ pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
     while at < lexemes.len() {
         match &lexemes[at].token {
             Token::Comma if at > 0 => thinks(lexemes, at),
-            Token::Word(word) if at > 0 && (word == "no" || word == "sorry") => {
-                comma_again(lexemes, at, text)
+            Token::Word(word) if at > 0 && (word == "no" || word == "sorry" || word == "wait") => {
+                comma_again(lexemes, at, text);
             }
             Token::Word(word) if word == "happen" || word == "happens" => happens(lexemes, at),
             Token::Word(word) if word == "from" || word == "to" => from_you(lexemes, at),

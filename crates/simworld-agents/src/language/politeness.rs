@@ -195,7 +195,7 @@ pub(super) const MANNERS: &Phrases = &Phrases::of(&[
     "for a better angle", "each", "apiece", "a while", "for now", "for good measure", "for safety", "just in case",
     "just to be safe", "just to be sure", "without stopping", "without a break", "without pausing", "already",
     "with all speed", "with care", "with a smile", "in the first place", "up there", "after me", "behind you", "after you",
-    "for fun", "just for fun", "for the fun of it", "just for the fun of it", "for luck", "just for luck", "for good luck", "for a laugh", "just for a laugh",
+    "no longer", "no matter what", "no matter what happens", "for fun", "just for fun", "for the fun of it", "just for the fun of it", "for luck", "just for luck", "for good luck", "for a laugh", "just for a laugh",
     "for the sake of it", "for old times sake", "for no reason", "for no particular reason", "for no good reason", "for practice", "just for practice", "for exercise",
     "for the exercise", "for the record", "for show", "just for show", "out of curiosity", "as a treat", "to be on the safe side", "just to be on the safe side",
     "for your own good", "for my sake", "for my peace of mind", "to celebrate", "for the joy of it", "for the hell of it",

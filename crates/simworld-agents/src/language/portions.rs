@@ -106,9 +106,6 @@ impl Parser<'_> {
     /// "My kids": children who stand about are not meant.
     fn names_others(&self) -> bool {
         let words = longest_phrase(self.rest(), DETERMINERS).unwrap_or(0);
-        let small =
-            ["little", "young", "small", "baby", "big", "old", "dear", "eldest", "youngest", "favourite"];
-        let words = words + longest_phrase(&self.rest()[words..], &small).unwrap_or(0);
         words > 0 && longest_phrase(&self.rest()[words..], super::shopping::OTHERS).is_some()
     }
 

@@ -224,7 +224,14 @@ fn replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     }
     if LINKS.contains(&first) {
         let at = wrong.iter().rposition(|lexeme| word_of(lexeme) == first).filter(|at| *at > 0)?;
-        return Some([&wrong[..at], right].concat());
+        let mut right = right.to_vec();
+        // "On the blue bench, no, on the red one".
+        let lone =
+            wrong.len() > at + 2 && !wrong[at + 1..].iter().any(|lexeme| LINKS.contains(&word_of(lexeme)));
+        if let (Some(one), true) = (right.iter_mut().find(|lexeme| word_of(lexeme) == "one"), lone) {
+            *one = wrong[wrong.len() - 1].clone();
+        }
+        return Some([&wrong[..at], &right].concat());
     }
     if longest_verb(right).is_some() {
         return None;
@@ -232,9 +239,9 @@ fn replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     if ARTICLES.contains(&first) {
         return thing_replaced(wrong, right);
     }
-    if let Some((_, words)) = direction(right).filter(|(_, words)| *words == right.len()) {
+    if let Some(words) = direction(right).filter(|words| *words == right.len()) {
         let at = (0..wrong.len()).rfind(|at| direction(&wrong[*at..]).is_some())?;
-        let behind = at + direction(&wrong[at..]).map_or(0, |(_, words)| words);
+        let behind = at + direction(&wrong[at..]).unwrap_or(0);
         return Some([&wrong[..at], &right[..words], &wrong[behind..]].concat());
     }
     if let Some((_, words)) = numbers::times(right).filter(|(_, words)| *words == right.len()) {
@@ -245,10 +252,10 @@ fn replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     number_replaced(wrong, right).or_else(|| name_replaced(wrong, right))
 }
 
-/// "Left", "north".
-fn direction(said: &[Lexeme]) -> Option<((), usize)> {
-    let side = longest_phrase(said, &["left", "right"]).map(|words| ((), words));
-    side.or_else(|| longest(said, DIRECTIONS).map(|(_, words)| ((), words)))
+/// "Left", "north": in how many words.
+fn direction(said: &[Lexeme]) -> Option<usize> {
+    let side = longest_phrase(said, &["left", "right"]);
+    side.or_else(|| longest(said, DIRECTIONS).map(|(_, words)| words))
 }
 
 /// "The red chair, no, the yellow one", where one thing alone was named, or one alone by the same noun.
@@ -357,6 +364,7 @@ mod tests {
                 "carry the crate to the cheese stall",
             ),
             ("put the red ball on the table, no, the blue ball", "put the blue ball on the table"),
+            ("sit on the blue bench, no, on the red one", "sit on the red bench"),
             ("give it to Emil, no, Boris", "give it to boris"),
             ("walk to the slide. No, sorry, to the oak I mean.", "walk to the oak ,"),
             ("wave at Nora. Sorry, at Omar", "wave at omar"),

@@ -162,7 +162,10 @@ impl Parser<'_> {
             "okay right", "a second", "a moment", "a sec", "look", "so right", "now then", "never mind that",
         ]);
         let start = self.at;
-        self.skip_joints();
+        // "Let's" alone is politeness.
+        if longest_phrase(self.rest(), CALLS).is_none() {
+            self.skip_joints();
+        }
         let begin = self.at;
         let said = self.eat_any(WARNINGS);
         let called = !said && self.eat_any(CALLS);
@@ -171,7 +174,12 @@ impl Parser<'_> {
             return true;
         }
         if called && marked {
-            self.skip_joints();
+            while self.rest().first().is_some_and(super::lexer::is_mark) {
+                self.at += 1;
+            }
+            if longest_phrase(self.rest(), CALLS).is_none() {
+                self.skip_joints();
+            }
             let again = longest_phrase(self.rest(), CALLS).is_some()
                 || longest_phrase(self.rest(), &["there is", "theres", "here is", "that is", "thats"])
                     .is_some();
