@@ -6,7 +6,7 @@
 
 use super::clause::{Clause, Reference, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{category, longest_phrase};
+use super::lexicon::{DETERMINERS, category, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;
@@ -36,7 +36,7 @@ const FINITE: &[&str] = &[
     "hope", "bet", "swear", "promise", "repeat", "recommend", "suggest", "fell", "fall", "falls", "stopped", "broke",
     "waits", "sits", "stands", "lies", "calls", "begins", "starts", "ends", "closes", "opens", "comes", "happens",
     "matters", "used", "depends", "looked", "seemed", "just", "never", "always", "aint", "ran", "took", "gave", "brought", "bought", "found",
-    "stood", "sat", "ate", "drank", "spoke", "wrote", "drove", "flew", "hid", "kept", "paid", "rang", "rode", "sang", "sent", "shook", "slept", "spent",
+    "overslept", "stood", "sat", "ate", "drank", "spoke", "wrote", "drove", "flew", "hid", "kept", "paid", "rang", "rode", "sang", "sent", "shook", "slept", "spent",
     "stole", "swam", "threw", "wore", "won", "woke", "began", "became", "caught", "chose", "dug", "drew", "fought", "froze", "grew", "held", "hung",
     "led", "lent", "meant", "met", "rose", "sold", "spilt", "stuck", "swore", "taught", "tore", "gives", "takes", "leaves", "arrives", "runs",
 ];
@@ -72,6 +72,11 @@ const ENDS: &Phrases = &Phrases::of(&[
     "no dawdling in between", "without stopping", "no ifs no buts", "nothing else", "that is that", "thats that",
     "no more", "be careful", "mind how you go", "if you dare", "dont be late", "keep the change", "off you go",
     "none other", "and none other", "nothing else", "nobody else", "and nobody else", "and nothing else", "and thats all", "thats all i need", "thats everything", "no questions asked", "no cheating", "already", "instead", "as well", "after all", "either", "there and then", "at that", "thank goodness",
+    "better safe than sorry", "the more the merrier", "the more the better", "third time lucky", "you never know", "once is not enough", "one is not enough",
+    "once is never enough", "one is never enough", "two is better than one", "two are better than one", "that should do", "that should do it", "that should be enough",
+    "that ought to do", "that ought to do it", "that will do", "thatll do", "thatll be enough", "that will be enough", "one wont do", "one wont be enough", "it cant hurt",
+    "it wont hurt", "it never hurts", "you can never have too many", "you can never be too careful", "you cant have too many", "you can never be too sure",
+    "come what may", "as usual", "as always", "why not", "just because", "trust me", "believe me",
 ]);
 
 impl Parser<'_> {
@@ -192,7 +197,8 @@ impl Parser<'_> {
             let start = self.at;
             let begins = longest_phrase(self.rest(), &["the", "that", "this", "my", "a", "an"]).is_some()
                 || self.is_capital(self.at)
-                || category(self.rest()).is_some();
+                || category(self.rest()).is_some()
+                || self.at == 0 && self.names.exact(self.rest()).is_some();
             // "Lena's birthday is today".
             let owner = self.whose(&self.lexemes[start..=start]).filter(|owner| *owner != Target::Them);
             let what = match owner {
@@ -239,7 +245,8 @@ fn word_of(lexeme: &Lexeme) -> &str {
 fn asks(said: &[Lexeme]) -> bool {
     (0..said.len()).any(|at| {
         let mine = ["i", "ill", "im", "ive"].contains(&word_of(&said[0])) && word_of(&said[at]) == "be";
-        ASKING.contains(&word_of(&said[at])) && !mine
+        let after_all = longest_phrase(&said[at..], &["after all"]).is_some();
+        ASKING.contains(&word_of(&said[at])) && !mine && !after_all
             || longest_phrase(&said[at..], ASKING_SO).is_some()
             || numbers::walked(&said[at..]).is_some_and(|(_, words)| words > 1)
     })
@@ -252,7 +259,12 @@ fn has_finite(said: &[Lexeme]) -> bool {
         // "All hands to the hydrant" states nothing.
         let plural = word.ends_with('s')
             && !["he", "she", "it", "that", "who", "nobody", "somebody", "someone"].contains(&before);
-        let inflected = lexeme.lemma.is_some() && !word.ends_with("ing") && before != "to" && !plural;
+        // "Emil skipped breakfast", "my son missed the bus".
+        let own = ["my", "his", "her", "our", "their"].contains(&word_of(&said[0]));
+        let past = word.len() > 4
+            && word.ends_with("ed")
+            && (at == 1 && !own && longest_phrase(said, DETERMINERS).is_none() || at == 2 && own);
+        let inflected = past || lexeme.lemma.is_some() && !word.ends_with("ing") && before != "to" && !plural;
         FINITE.contains(&word) || inflected
     }) || FINITE.contains(&word_of(&said[0])) && said.len() > 1 && word_of(&said[0]).len() > 1
 }

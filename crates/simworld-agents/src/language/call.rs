@@ -179,7 +179,11 @@ impl Call<'_> {
                 let mut lexemes = lex_speech(words);
                 correct(&mut lexemes, self.names);
                 let mut parser = Parser::new(words, &lexemes, self.names, self.view);
-                let thing = parser.reference(0).map_err(|error| self.refuse(format!("{key}: {error}")))?;
+                // Who or what is not here is no fault of the call.
+                let thing = parser.reference(0).map_err(|error| match error {
+                    PlanError::NotFound { .. } => error,
+                    error => self.refuse(format!("{key}: {error}")),
+                })?;
                 if parser.at < lexemes.len() {
                     return Err(
                         self.refuse(format!("{key} = {:?} says more than one thing", shortened(words)))

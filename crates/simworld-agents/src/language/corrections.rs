@@ -64,8 +64,10 @@ impl Parser<'_> {
             self.at += 1;
         }
         let marked = self.at > start;
+        // "Go to the well. Well, ..." begins another sentence.
+        let comma = marked && self.lexemes[self.at - 1].token == Token::Comma;
         let lone_no = marked
-            && (self.peeks("no") || self.peeks("well"))
+            && (self.peeks("no") || comma && self.peeks("well"))
             && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. }));
         if lone_no {
             self.at += 1;

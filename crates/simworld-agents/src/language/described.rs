@@ -56,7 +56,7 @@ const FAR_MOST: &Phrases = &Phrases::of(&[
     "furthest", "farthest away from you", "farthest from here", "furthest from here", "farthest from me",
     "furthest from me", "farthest away from here", "furthest away from here", "furthest away from you",
     "farther", "further", "farther away", "further away", "farther off", "further off", "furthest off",
-    "farthest off", "most distant from you",
+    "farthest off", "most distant from you", "most distant from here",
 ]);
 const SUPERLATIVES: &Phrases = &Phrases::of(&[
     "nearest",

@@ -94,6 +94,21 @@ impl Parser<'_> {
         None
     }
 
+    /// "The oak gives shade, stand there": where that is, if one thing was spoken of.
+    pub(super) fn stands_there(&mut self, said: &[Clause]) -> Option<Clause> {
+        let start = self.at;
+        let spoken_of = matches!(said, [Clause::Mention { .. }]);
+        if spoken_of
+            && self.eat_any(&["stand there", "go stand there", "go and stand there"])
+            && self.ends_clause()
+        {
+            let to = Reference::to(Target::There, "there".to_owned());
+            return Some(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
+        }
+        self.at = start;
+        None
+    }
+
     pub(super) fn word_before(&self) -> &str {
         self.word_before_at(self.at)
     }

@@ -35,7 +35,8 @@ const MAY_DEMAND: &Phrases = &Phrases::of(&[
 const SOMEBODY: &Phrases = &Phrases::of(&[
     "i", "im", "ive", "ill", "he", "hes", "she", "shes", "it", "its", "they", "theyre", "theyve", "we", "were", "weve", "there is", "there are", "theres",
     "that is", "thats", "this is", "my", "his", "her", "our", "their", "nobody", "everybody", "everyone", "somebody", "someone", "people",
-    "your", "you look", "you must be", "you seem", "youre", "you are", "youve", "you have been",
+    "one is", "one was", "one will", "one wont", "one would", "one might", "one may", "one must be", "one of them", "one can", "one could", "one has to", "none of them",
+    "some of them", "two of them", "most of them", "once is", "you never", "you can never", "your", "you look", "you must be", "you seem", "youre", "you are", "youve", "you have been",
 ]);
 /// What nobody is told to do.
 const UNWANTED: &Phrases = &Phrases::of(&[

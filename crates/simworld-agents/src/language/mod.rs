@@ -13,6 +13,7 @@ mod asides;
 mod between;
 mod blocks;
 mod call;
+mod chatter;
 mod choices;
 mod clause;
 mod clipped;
@@ -28,6 +29,7 @@ mod draft;
 mod driving;
 pub(crate) mod edits;
 mod following;
+mod fractions;
 mod fronted;
 mod gazes;
 mod gestures;
@@ -56,10 +58,12 @@ mod portions;
 mod reference;
 mod relate;
 mod remarks;
+mod repairs;
 mod repeats;
 mod reported;
 mod requests;
 mod resolve;
+mod restarts;
 mod routes;
 mod rows;
 pub(crate) mod scenes;
@@ -188,13 +192,12 @@ impl Planner for GrammarPlanner {
             }
             Intent::Words(words) => {
                 let mut lexemes = hearing::hear(words, me.info.name.as_deref());
-                spelling::correct(&mut lexemes, &names);
-                passive::put_verbs_first(&mut lexemes);
-                let read = |lexemes: &[lexer::Lexeme]| Parser::new(words, lexemes, &names, &view).sentence();
-                read(&lexemes).or_else(|refused| {
-                    let mut rest = idle::without_remarks(&lexemes, &names).map(read);
-                    rest.find(|rest| !matches!(rest, Err(PlanError::NotUnderstood { .. })))
-                        .unwrap_or(Err(refused))
+                fractions::in_one(&mut lexemes);
+                chatter::plainly(&mut lexemes, words);
+                let said = repairs::mend(&mut lexemes);
+                read(words, lexemes, &names, &view).or_else(|refused| match said {
+                    Some(said) if !understood(&refused) => read(words, said, &names, &view).or(Err(refused)),
+                    _ => Err(refused),
                 })?
             }
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
@@ -203,4 +206,30 @@ impl Planner for GrammarPlanner {
         draft.add_all(&clauses)?;
         Ok(draft.finish())
     }
+}
+
+/// Whether an answer says more than that nothing was understood.
+const fn understood(refused: &PlanError) -> bool {
+    !matches!(refused, PlanError::NotUnderstood { .. })
+}
+
+/// Reads what was heard; what is not understood as it is may be without its remarks, or told straight.
+fn read(
+    words: &str,
+    mut lexemes: Vec<lexer::Lexeme>,
+    names: &Names<'_>,
+    view: &View<'_>,
+) -> Result<Vec<clause::Clause>, PlanError> {
+    spelling::correct(&mut lexemes, names);
+    passive::put_verbs_first(&mut lexemes);
+    let parse = |lexemes: &[lexer::Lexeme]| Parser::new(words, lexemes, names, view).sentence();
+    let says_more = |read: &Result<_, PlanError>| read.as_ref().err().is_none_or(understood);
+    parse(&lexemes).or_else(|refused| {
+        if let Some(rest) = idle::without_remarks(&lexemes, names).map(parse).find(says_more) {
+            return rest;
+        }
+        let Some(told) = restarts::told_straight(&lexemes) else { return Err(refused) };
+        let mut rest = std::iter::once(parse(&told)).chain(idle::without_remarks(&told, names).map(parse));
+        rest.find(says_more).unwrap_or(Err(refused))
+    })
 }

@@ -385,7 +385,11 @@ impl Parser<'_> {
 
     /// "Step two metres to the left" is no second step of a list.
     pub(super) fn counts_a_step(&self) -> bool {
-        let number = self.rest().get(1..).filter(|_| self.peeks("step")).and_then(numbers::number);
+        let measured = self.rest().get(1..).filter(|_| self.peeks("step"));
+        if measured.is_some_and(|after| numbers::walked(after).is_some()) {
+            return true; // "step one metre and a half"
+        }
+        let number = measured.and_then(numbers::number);
         number.is_some_and(|(_, count)| {
             let after = &self.rest()[1 + count..];
             longest_phrase(after, LENGTHS).is_some()

@@ -138,7 +138,7 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_opening();
-        self.skip_warning();
+        while self.skip_warning() {}
         self.skip_joints();
         if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
             self.at += 2;
@@ -261,7 +261,7 @@ impl<'a> Parser<'a> {
             && !joint.iter().any(|lexeme| lexeme.token == Token::Break)
     }
 
-    fn begins_block(&self) -> bool {
+    pub(super) fn begins_block(&self) -> bool {
         #[rustfmt::skip]
         const BLOCKS: &Phrases = &Phrases::of(&[
             "if", "unless", "when", "until", "keep", "repeat", "before", "after", "while", "every", "having",
@@ -360,6 +360,10 @@ impl<'a> Parser<'a> {
 
     pub(super) fn on_topic(&mut self) -> Option<Vec<Clause>> {
         let mut clauses = self.topic()?;
+        if let Some(there) = self.stands_there(&clauses) {
+            clauses.push(there);
+            return Some(clauses);
+        }
         clauses.extend(self.statement_here()?);
         Some(clauses)
     }

@@ -166,7 +166,7 @@ pub(super) const FILLERS: &[&str] = &[
     "when it suits you", "whenever it suits you", "if it suits you", "can i ask a favour", "could i ask a favour", "may i ask a favour", "can i ask you a favour",
     "could i ask you a favour", "can you do something for me", "could you do something for me", "can you help me", "could you help me", "be a sweetheart",
     "be an angel", "be a star", "be a love", "be a darling", "be a hero", "before anything else", "before you do anything else", "before doing anything else",
-    "ahead of anything else", "first and foremost", "sorry to be a bother", "stretch your legs and", "sorry to be a nuisance", "beg your pardon", "begging your pardon",
+    "ahead of anything else", "first and foremost", "sorry to be a bother", "sorry to be a pain", "sorry to bother you again", "sorry to ask", "sorry to be so difficult", "sorry to be difficult", "stretch your legs and", "sorry to be a nuisance", "beg your pardon", "begging your pardon",
     "if it is not out of your way", "if it is not far out of your way", "if that is not out of your way",
 ];
 
@@ -195,6 +195,10 @@ pub(super) const MANNERS: &Phrases = &Phrases::of(&[
     "for a better angle", "each", "apiece", "a while", "for now", "for good measure", "for safety", "just in case",
     "just to be safe", "just to be sure", "without stopping", "without a break", "without pausing", "already",
     "with all speed", "with care", "with a smile", "in the first place", "up there", "after me", "behind you", "after you",
+    "no longer", "no matter what", "no matter what happens", "for fun", "just for fun", "for the fun of it", "just for the fun of it", "for luck", "just for luck", "for good luck", "for a laugh", "just for a laugh",
+    "for the sake of it", "for old times sake", "for no reason", "for no particular reason", "for no good reason", "for practice", "just for practice", "for exercise",
+    "for the exercise", "for the record", "for show", "just for show", "out of curiosity", "as a treat", "to be on the safe side", "just to be on the safe side",
+    "for your own good", "for my sake", "for my peace of mind", "to celebrate", "for the joy of it", "for the hell of it",
 ]);
 
 /// Sounds of hesitation; they are dropped wherever they stand.

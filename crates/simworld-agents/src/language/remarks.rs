@@ -1,5 +1,6 @@
 //! What people say beside their orders: how they are, and why they want it.
 
+use super::clause::Clause;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
@@ -66,5 +67,38 @@ impl Parser<'_> {
             self.at = end;
         }
         is_remark
+    }
+
+    /// "Can you see the tree next to the chair go over to that one": a question without its mark.
+    pub(super) fn seen_by_you(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        let you = self.word_before() == "you"
+            || longest_phrase(self.rest(), &["you", "do you", "can you"]).is_some();
+        if self.eat_any(&["can you see", "do you see", "you see", "see", "do you know", "you know"])
+            && let Ok(what) = self.reference(0)
+        {
+            self.eat_any(&[
+                "over there",
+                "there",
+                "from here",
+                "right there",
+                "just there",
+                "from where you are",
+                "by any chance",
+            ]);
+            let takes_up = self.rest().iter().any(|lexeme| {
+                matches!(&lexeme.token, Token::Word(word) if ["it", "there", "that", "him", "her", "them"].contains(&word.as_str()))
+            });
+            // "You see the statue. Turn towards it": nobody is told to see it.
+            let told = you && self.mark().is_some_and(|mark| ['.', '!', ';'].contains(&mark));
+            if takes_up
+                && (longest_verb(self.rest()).is_some()
+                    || told && self.order_follows() && !self.begins_block())
+            {
+                return Some(self.mention(what));
+            }
+        }
+        self.at = start;
+        None
     }
 }

@@ -24,7 +24,7 @@ const ENDINGS: &str = include_str!("request_endings.txt");
 const WELCOME: &[&str] = &[
     "appreciate", "love", "like", "great", "nice", "lovely", "good", "best", "wonderful", "helpful", "help",
     "kind", "grateful", "thankful", "happy", "delighted", "glad", "pleased", "mind", "wonder", "wondering",
-    "prefer", "convenient", "better",
+    "prefer", "convenient", "better", "favour", "favor", "service", "kindness", "owe", "lot", "world", "solid", "honoured", "honored",
 ];
 /// Small words that may stand between an ending and the verb.
 #[rustfmt::skip]
@@ -181,7 +181,7 @@ pub(super) fn polite_condition(lexemes: &[Lexeme]) -> usize {
 #[rustfmt::skip]
 const POLITE: &[&str] = &[
     "mind", "can", "could", "would", "wouldnt", "please", "possible", "trouble", "bother", "like", "moment",
-    "time", "ready", "chance", "ok", "okay", "convenient", "kind", "want",
+    "time", "ready", "chance", "same", "ok", "okay", "convenient", "kind", "want",
 ];
 /// Small words that say something at the end of a sentence: "if you see me".
 const MEANT: &[&str] =

@@ -139,7 +139,11 @@ impl<'a> View<'a> {
             // A superlative without a single best is open under every policy.
             Choice::Most(..) | Choice::Compass(_) | Choice::Side(_) => same(best.0, second.0),
             _ if self.policy != AmbiguityPolicy::Ask || reference.indefinite => false,
-            Choice::Open => Self::is_plain(reference) && second.0 <= best.0 + EITHER,
+            Choice::Open if Self::is_plain(reference) => second.0 <= best.0 + EITHER,
+            // "The chair beside the table", where two stand as near to it.
+            Choice::Open => {
+                matches!(&reference.relation, Some(super::clause::Stands::To(..))) && same(best.0, second.0)
+            }
             Choice::Nearest => same(best.0, second.0),
             _ => false,
         };
@@ -147,7 +151,7 @@ impl<'a> View<'a> {
             return Ok(());
         }
         let reach = match reference.choice {
-            Choice::Open => best.0 + EITHER,
+            Choice::Open if Self::is_plain(reference) => best.0 + EITHER,
             _ => best.0 + best.0.abs() * 0.01,
         };
         let meant = candidates.iter().take_while(|(rank, _)| *rank <= reach);

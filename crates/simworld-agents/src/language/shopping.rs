@@ -31,6 +31,8 @@ pub(super) const OTHERS: &Phrases = &Phrases::of(&[
     "road", "train", "journey", "way", "sister", "brother", "son", "daughter", "grandmother", "grandfather", "mother", "father", "aunt", "uncle", "cousin",
     "neighbour", "neighbor", "neighbours", "neighbors", "girlfriend", "boyfriend", "teacher", "friend", "colleague", "granny", "gran", "nan", "mummy", "daddy",
     "nephew", "niece", "grandson", "granddaughter", "grandparents", "grandkids", "grandchildren", "little ones", "twins", "baby", "husband and me", "birthday",
+    "little boy", "little girl", "little one", "little brother", "little sister", "big brother", "big sister", "baby boy", "baby girl", "baby brother", "baby sister",
+    "eldest", "youngest", "partner", "other half", "better half", "toddler", "grandchild", "kid", "child", "old man", "old mum", "old dad", "flatmate", "roommate",
 ]);
 /// The place that was spoken of, behind what is bought there.
 const THERE: &Phrases = &Phrases::of(&[

@@ -1,6 +1,6 @@
 //! Slips that make other words: "bye" for "buy", "siton" for "sit on".
 
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, is_mark};
 use super::numbers;
 use super::verbs;
 
@@ -104,4 +104,14 @@ pub(super) fn run_together(word: &str) -> Option<[String; 2]> {
         let verb = word.strip_suffix(small).filter(|verb| verb.len() > 2 && verbs::is_verb(verb))?;
         Some([verb.to_owned(), (*small).to_owned()])
     })
+}
+
+/// "Plase", "pleaes", where people say "please": first or last, at a mark, or before a verb.
+pub(super) fn asked_politely(word: &str, at: usize, lexemes: &[Lexeme]) -> Option<String> {
+    const PLEASE: &str = "please";
+    let marked = |at: usize| lexemes.get(at).is_none_or(is_mark);
+    let verb = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if verbs::is_verb(word));
+    let apart = at == 0 || marked(at - 1) || marked(at + 1) || lexemes.get(at + 1).is_some_and(verb);
+    let alike = word.starts_with("pl") && word.len() > 3 && strsim::osa_distance(word, PLEASE) <= 2;
+    (apart && alike).then(|| PLEASE.to_owned())
 }

@@ -30,6 +30,13 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
         let here = at;
         at += 1;
         let Token::Word(word) = &lexemes[here].token else { continue };
+        // "Pleaes" is near other words too.
+        let asks = word.starts_with("pl") && find(word).is_none() && !names.has_word(word) && !known(word);
+        if let Some(please) = asks.then(|| slips::asked_politely(word, here, lexemes)).flatten() {
+            lexemes[here].lemma = None;
+            lexemes[here].token = Token::Word(please);
+            continue;
+        }
         let is_short = word.len() < 3 || word.chars().count() < 3;
         if is_short
             || lexemes[here].lemma.is_some()
@@ -55,8 +62,7 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
                 ..lexeme.clone()
             });
             lexemes.splice(here..=here, both);
-        } else if let Some(right) = asked_politely(word, here, lexemes.len())
-            .or_else(|| nearest(word, names, follows_verb).or_else(|| plural_of_name(word, names)))
+        } else if let Some(right) = nearest(word, names, follows_verb).or_else(|| plural_of_name(word, names))
         {
             lexemes[here].lemma = base_form(&right);
             lexemes[here].token = Token::Word(right);
@@ -77,14 +83,6 @@ fn plural_of_name(word: &str, names: &Names<'_>) -> Option<String> {
     const SHORTEST: usize = 4;
     let one = word.strip_suffix('s').filter(|one| one.len() >= SHORTEST)?;
     nearest(one, names, true).filter(|right| names.has_word(right)).map(|right| format!("{right}s"))
-}
-
-/// "Plase", "pleaes", where people say "please": first or last.
-fn asked_politely(word: &str, at: usize, count: usize) -> Option<String> {
-    const PLEASE: &str = "please";
-    let outermost = at == 0 || at + 1 == count;
-    let alike = word.starts_with("pl") && word.len() > 3 && strsim::osa_distance(word, PLEASE) <= 2;
-    (outermost && alike).then(|| PLEASE.to_owned())
 }
 
 /// What is meant rather than a rarer word as near.

@@ -115,31 +115,80 @@ impl Parser<'_> {
     /// "You look like you need a rest, ...": what is said of who hears it, before an order.
     pub(super) fn skip_opening(&mut self) {
         let end = self.mark_from(self.at);
-        if longest_phrase(self.rest(), &["you", "youre", "youve"]).is_some() && end + 1 < self.lexemes.len() {
-            self.skip_statement();
+        let follows = end + 1 < self.lexemes.len();
+        if longest_phrase(self.rest(), &["you", "youre", "youve"]).is_some() && follows {
+            let _ = self.lacks(end) || self.skip_statement();
+        } else if follows && self.peeks("we") {
+            self.lacks(end);
         }
     }
 
-    /// "Careful, ...", "hurry, ...": what is called out before an order.
-    pub(super) fn skip_warning(&mut self) {
-        let start = self.at;
-        let said = self.eat_any(&[
-            "careful",
-            "be careful",
-            "hurry",
-            "hurry up",
-            "watch out",
-            "look out",
-            "quick",
-            "come quick",
-            "mind your step",
-            "watch your step",
-            "heads up",
+    /// "You could do with some exercise, ...": what nobody here sells or is; whether that was said up to there.
+    fn lacks(&mut self, end: usize) -> bool {
+        #[rustfmt::skip]
+        const LACKS: &Phrases = &Phrases::of(&[
+            "you could do with", "you could use", "you look like you need", "you look like you could use", "you look as if you need", "you look like you could do with",
+            "you need", "you really need", "you deserve", "youve earned", "you have earned", "we could do with", "we could all do with", "we could use", "we all need",
+            "you must need", "you probably need", "you can use", "you look like",
         ]);
-        let marked = matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, _, ..]);
-        if !(said && marked) {
-            self.at = start;
+        let Some(words) = longest_phrase(self.rest(), LACKS) else { return false };
+        let known = |at: usize| {
+            let rest = &self.lexemes[at..end];
+            category(rest).is_some() || self.names.goods(rest).is_some() || self.names.exact(rest).is_some()
+        };
+        let from = self.at + words;
+        let what = from < end && longest_phrase(&self.lexemes[from..end], &["to", "not"]).is_none();
+        let lacks = what && !(from..end).any(known);
+        if lacks {
+            self.at = end;
         }
+        lacks
+    }
+
+    /// "Careful, ...", "not so fast, ...", "right, ...": what is called out before an order; whether there was any.
+    pub(super) fn skip_warning(&mut self) -> bool {
+        #[rustfmt::skip]
+        const WARNINGS: &Phrases = &Phrases::of(&[
+            "careful", "be careful", "hurry", "hurry up", "watch out", "look out", "quick", "come quick", "mind your step", "watch your step", "heads up",
+        ]);
+        // An order of their own where no other follows.
+        #[rustfmt::skip]
+        const CALLS: &Phrases = &Phrases::of(&[
+            "not so fast", "not so quick", "not so quickly", "not yet", "whoa", "woah", "easy", "easy now", "easy there", "easy does it", "steady", "steady on", "steady now",
+            "hold your horses", "hang on", "hold on", "hang on a second", "hang on a minute", "hang on a moment", "hang on a sec", "hold on a second", "hold on a minute",
+            "hold on a moment", "hold on a sec", "one moment", "one second", "one sec", "one minute", "just a moment", "just a second", "just a sec", "just a minute",
+            "calm down", "relax", "no rush", "no hurry", "no need to hurry", "no need to rush", "no need to run", "theres no rush", "theres no hurry", "there is no rush",
+            "there is no hurry", "lets see", "let us see", "let me see", "let me think", "lets think", "where were we", "where was i", "ah yes", "right", "right now then",
+            "okay right", "a second", "a moment", "a sec", "look", "so right", "now then", "never mind that",
+        ]);
+        let start = self.at;
+        // "Let's" alone is politeness.
+        if longest_phrase(self.rest(), CALLS).is_none() {
+            self.skip_joints();
+        }
+        let begin = self.at;
+        let said = self.eat_any(WARNINGS);
+        let called = !said && self.eat_any(CALLS);
+        let marked = matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, _, ..]);
+        if said && marked {
+            return true;
+        }
+        if called && marked {
+            while self.rest().first().is_some_and(super::lexer::is_mark) {
+                self.at += 1;
+            }
+            if longest_phrase(self.rest(), CALLS).is_none() {
+                self.skip_joints();
+            }
+            let again = longest_phrase(self.rest(), CALLS).is_some()
+                || longest_phrase(self.rest(), &["there is", "theres", "here is", "that is", "thats"])
+                    .is_some();
+            if again || longest_verb(self.rest()).is_some() || self.begins_block() {
+                return self.at > begin;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// Passes statements behind an order, each with the mark before it: "you" would be passed over as politeness.

@@ -69,6 +69,9 @@ impl Parser<'_> {
         if self.peeks("for") || self.peeks("until") || self.peeks("till") || self.peek_time().is_some() {
             return self.wait();
         }
+        if self.waits_next() {
+            return Ok(Vec::new()); // "stay where you are and wait for ten seconds" is one thing
+        }
         if let Some(clauses) = self.stop_of_it() {
             return Ok(clauses);
         }
@@ -140,6 +143,27 @@ impl Parser<'_> {
             "dead",
         ]);
         Ok(vec![Clause::Stop])
+    }
+
+    /// Whether somebody is told to stay, and so long.
+    fn waits_next(&self) -> bool {
+        let stays = (1..=5).any(|back| {
+            back <= self.at && ["stay", "remain"].contains(&self.word_before_at(self.at + 1 - back))
+        });
+        let next = [
+            "and wait",
+            "and just wait",
+            "and wait there",
+            "and wait here",
+            "and wait for",
+            "and wait there for",
+            "and wait here for",
+            "and just wait for",
+        ];
+        stays
+            && longest_phrase(self.rest(), &next).is_some_and(|words| {
+                numbers::duration(&self.rest()[words..]).is_some_and(|(_, count)| count > 1)
+            })
     }
 
     /// What is stopped, or on which side of what.

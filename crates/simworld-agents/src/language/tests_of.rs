@@ -110,6 +110,7 @@ impl Parser<'_> {
     }
 
     fn tests(&mut self) -> Result<Test, PlanError> {
+        self.eat_any(&["by any chance", "by some chance", "for some reason"]);
         self.eat_any(&["either", "both"]);
         let neither = self.eat_any(&["it is neither", "its neither"]);
         let first = if neither { self.weather_again() } else { None };

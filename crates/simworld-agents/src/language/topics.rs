@@ -17,6 +17,7 @@ use super::verbs::longest_verb;
 const INTRODUCTIONS: &Phrases = &Phrases::of(&[
     "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
     "you can find", "you can get", "you can buy", "they sell", "they have", "there should be", "there must be", "there might be", "there used to be",
+    "have you seen", "did you see", "have you noticed", "did you notice", "have you spotted", "do you remember", "did you spot", "is that", "is not that",
     "know", "there goes", "here comes", "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
     "what is", "wheres", "where is", "which is", "who is", "whos", "id like", "i would like", "id love",
@@ -35,7 +36,7 @@ const STATIVES: &Phrases = &Phrases::of(&[
     "sits", "waits", "lies", "needs", "wants", "likes", "loves", "hates", "lives", "works", "sells", "looked",
     "seemed", "must be", "might be", "could be", "should be", "would like", "would love", "got", "keeps",
     "left", "forgot", "lost", "asked", "said", "called", "belongs", "ordered", "just", "hasnt", "isnt", "does", "doesnt",
-    "cant", "will",
+    "cant", "will", "gives", "offers", "provides", "makes", "throws", "casts", "smells", "skipped", "missed", "overslept", "broke",
 ]);
 /// What makes another thing of a remark: it says when or whether, or that it is an order.
 const NO_REMARK: &Phrases =
@@ -110,26 +111,8 @@ impl Parser<'_> {
         found
     }
 
-    /// "Can you see the tree next to the chair go over to that one": a question without its mark.
-    fn seen_by_you(&mut self) -> Option<Vec<Clause>> {
-        let start = self.at;
-        if self.eat_any(&["can you see", "do you see", "you see", "see", "do you know", "you know"])
-            && let Ok(what) = self.reference(0)
-        {
-            self.eat_any(&["over there", "there"]);
-            let takes_up = self.rest().iter().any(|lexeme| {
-                matches!(&lexeme.token, Token::Word(word) if ["it", "there", "that", "him", "her", "them"].contains(&word.as_str()))
-            });
-            if longest_verb(self.rest()).is_some() && takes_up {
-                return Some(self.mention(what));
-            }
-        }
-        self.at = start;
-        None
-    }
-
     /// Whether a mark stands here and something after it; the mark is passed.
-    fn order_follows(&mut self) -> bool {
+    pub(super) fn order_follows(&mut self) -> bool {
         let is_mark =
             matches!(self.rest().first().map(|lexeme| &lexeme.token), Some(Token::Comma | Token::Break));
         let is_and = longest_phrase(self.rest(), &["so", "and"]).is_some();
@@ -320,7 +303,7 @@ impl Parser<'_> {
         }
         let what = self.reference(0).ok()?;
         let names_one = matches!(what.target, Target::Named(_) | Target::Any(_) | Target::Id(_))
-            && what.choice == Choice::Open;
+            && matches!(what.choice, Choice::Open | Choice::Most(..));
         if names_one && let Some(likeness) = self.said_to_be(&what) {
             return Some(self.mention(likeness)); // "my suitcase is the red one, bring it to Eve"
         }
