@@ -157,7 +157,7 @@ impl Reader<'_> {
         let mut at = begin;
         while at < stop {
             if let Some(words) = self.points(at, topic) {
-                told.extend(self.thing_or_words(&one, topic, finder));
+                told.extend(topic.thing_or_words(&one, finder));
                 at += words;
                 changed = true;
             } else {
@@ -182,12 +182,14 @@ impl Reader<'_> {
         (at.saturating_sub(4)..at)
             .any(|from| longest(&self.lexemes[from..at], &WAYS).is_some_and(|(_, words)| from + words == at))
     }
+}
 
+impl Topic {
     /// The thing itself if it is one, or else the words that name it.
-    fn thing_or_words(&self, one: &Reference, topic: &Topic, finder: &Finder<'_>) -> Vec<Lexeme> {
-        match (finder.one(one), topic.said.first()) {
+    fn thing_or_words(&self, one: &Reference, finder: &Finder<'_>) -> Vec<Lexeme> {
+        match (finder.one(one), self.said.first()) {
             (Ok(id), Some(place)) => vec![Lexeme { token: Token::Id(id), lemma: None, ..place.clone() }],
-            _ => topic.said.clone(),
+            _ => self.said.clone(),
         }
     }
 }
