@@ -6,12 +6,13 @@ use simworld_core::seam::PlanError;
 
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token, is_mark};
-use super::super::lexicon::longest_phrase;
+use super::super::lexicon::{longest, longest_phrase};
 use super::memo::Memo;
 use super::parse::{Reader, UNDERSTOOD};
 use super::parts::Telling;
 use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
+use super::words::{ABOUT_IT, WAYS, Way};
 use super::{Focus, view_of};
 use crate::editing::{EditError, Stock};
 
@@ -38,7 +39,11 @@ pub(super) fn wishes_of(
         .lexemes
         .iter()
         .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if SELF.contains(&word.as_str())));
-    let begins_with_place = longest_phrase(reader.lexemes, PLACES).is_some();
+    let is_place = longest(reader.lexemes, &WAYS).is_some_and(|(way, _)| {
+        matches!(way, Way::To(_) | Way::Between | Way::Across | Way::Corner | Way::Middle | Way::Edge)
+    });
+    let is_side = longest(reader.lexemes, &ABOUT_IT).is_some_and(|(_, words)| words > 1);
+    let begins_with_place = is_place || is_side || longest_phrase(reader.lexemes, PLACES).is_some();
     Attempts { reader, scene, stock, focus, speaks_of_self, begins_with_place }.wishes()
 }
 
@@ -56,6 +61,9 @@ impl Attempts<'_> {
     fn wishes(&self) -> Result<Wishes, PlanError> {
         if self.asks_how_to() {
             return Err(self.reader.not_understood(UNDERSTOOD));
+        }
+        if let Some(nobody) = self.reader.unknown_somebody(2) {
+            return Err(nobody);
         }
         let plain = plainly(&self.reader);
         if plain.as_ref().is_ok_and(|wishes| self.holds(wishes)) {
@@ -76,6 +84,10 @@ impl Attempts<'_> {
             .or_else(|| self.sentence_by_sentence(&ways));
         if let Some(wishes) = bolder {
             return Ok(wishes);
+        }
+        // "Frida should come over here": nobody is called so, and nothing new either.
+        if let Some(nobody) = self.reader.unknown_somebody(1) {
+            return Err(nobody);
         }
         match answer.filter(|_| plain.is_err()) {
             Some(answer) => answer,

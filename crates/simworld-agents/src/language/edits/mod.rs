@@ -14,6 +14,7 @@ mod attempts;
 mod bare;
 mod bounds;
 mod breaks;
+mod casual;
 mod change;
 mod chatty;
 mod complaints;
@@ -81,11 +82,13 @@ mod supposed;
 mod talk;
 mod things;
 mod told;
+mod topics;
 mod turn;
 mod turns;
 mod which;
 mod whole;
 mod wish;
+mod wording;
 pub(super) mod words;
 
 use std::sync::Arc;
@@ -163,11 +166,13 @@ pub(crate) fn read(
         Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
     let nearest = reader.with_nearest_to_street();
     let reader = Reader { lexemes: nearest.as_deref().unwrap_or(&lexemes), ..reader };
+    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+    let topics = reader.with_topics(&finder);
+    let reader = Reader { lexemes: topics.as_deref().unwrap_or(reader.lexemes), ..reader };
     let pointed = reader.with_what_was_pointed_at();
     let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
     let numbered = reader.with_number();
     let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     let stood = reader.with_old_places(&finder);
     let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
     let left = reader.with_what_is_left(&finder);
@@ -196,9 +201,11 @@ fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     breaks::in_plain_words(words, lexemes);
+    wording::in_plain_words(words, lexemes);
     respelt::in_plain_spelling(words, lexemes);
     talk::in_plain_words(words, lexemes, names);
     doubted::in_plain_words(lexemes);
+    casual::in_plain_words(lexemes);
     retold::in_plain_words(lexemes);
     slips::correct(words, lexemes, names, stock, streets);
     spared::in_plain_words(lexemes);
@@ -417,6 +424,9 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(likened::words())
         .chain(chatty::words())
         .chain(talk::words())
+        .chain(casual::words())
+        .chain(wording::words())
+        .chain(topics::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -194,7 +194,7 @@ fn nearest_to(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
 }
 
 /// Whether a noun of things ends before a word that says which are meant.
-fn ends_which(lexemes: &[Lexeme], at: usize) -> bool {
+pub(super) fn ends_which(lexemes: &[Lexeme], at: usize) -> bool {
     (at.saturating_sub(2)..at).rev().any(|from| {
         let noun = category(&lexemes[from..at]).is_some_and(|(_, words)| from + words == at)
             || from + 1 == at && species(&lexemes[from]).is_some();

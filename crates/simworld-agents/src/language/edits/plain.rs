@@ -398,13 +398,16 @@ fn spots(lexemes: &mut Vec<Lexeme>) {
     const SPOTS: &Phrases = &Phrases::of(&["to a spot", "at a spot", "in a spot", "on a spot", "to a place", "at a place", "in a place", "to somewhere", "to some place", "to some spot", "at some spot", "in some spot", "to the spot", "to the area", "to a position",
         "to a location", "to the place", "into the spot", "to the ground", "on the ground", "on the floor", "to the space", "into the space", "in the space", "to a point", "somewhere", "someplace", "anywhere", "to the patch", "on a patch", "into position",
         "in position", "into place", "in place"]);
-    let mut at = 1;
+    let mut at = 0;
     while at < lexemes.len() {
         let words = longest_phrase(&lexemes[at..], SPOTS).filter(|words| {
             let behind = &lexemes[at + words..];
-            longest(behind, &super::words::WAYS).is_some_and(|(way, _)| {
-                !matches!(way, super::words::Way::At | super::words::Way::Here | super::words::Way::There)
-            })
+            let compass = longest(behind, super::super::compass::DIRECTIONS)
+                .is_some_and(|(_, words)| longest_phrase(&behind[words..], &["of"]).is_some());
+            compass
+                || longest(behind, &super::words::WAYS).is_some_and(|(way, _)| {
+                    !matches!(way, super::words::Way::At | super::words::Way::Here | super::words::Way::There)
+                })
         });
         if let Some(words) = words {
             lexemes.drain(at..at + words);

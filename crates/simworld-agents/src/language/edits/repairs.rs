@@ -69,7 +69,7 @@ fn without_dangling(lexemes: &mut Vec<Lexeme>) {
 }
 
 /// Whether a relation says nothing without what it is to.
-const fn needs_anchor(way: Way) -> bool {
+pub(super) const fn needs_anchor(way: Way) -> bool {
     !matches!(way, Way::Here | Way::There | Way::InItsPlace | Way::Anywhere)
 }
 
@@ -87,6 +87,13 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     let mut is_sure = true;
     let (from, to, behind) = if let Some(words) = longest_phrase(rest, TAKEN_BACK) {
         is_sure = longest_phrase(rest, WEAK) != Some(words);
+        // "The robot, make that one orange" speaks of another.
+        let part = lexemes[..mark].iter().rposition(is_mark).map_or(0, |at| at + 1);
+        if longest_phrase(rest, &["make that one", "have that one", "make this one"]).is_some()
+            && longest_phrase(&lexemes[part..mark], &["the", "that", "my", "our"]).is_some()
+        {
+            return None;
+        }
         // "No clouds" takes nothing back, and "no, clouds" does.
         if longest(rest, &WAYS).is_some() {
             return None;
@@ -117,7 +124,7 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
         let cut = (from + 1..end).find(|at| longest_phrase(&lexemes[*at..end], BEHIND) == Some(end - at))?;
         (from, cut, end)
     };
-    let (before, meant) = (&lexemes[..mark], without_make_it(&lexemes[from..to]));
+    let (before, meant) = (&lexemes[..mark], without_make_it(without_of_them(&lexemes[from..to])));
     if meant.is_empty() {
         return None;
     }
@@ -128,6 +135,25 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     right.extend_from_slice(&before[stop..]);
     right.extend_from_slice(&lexemes[behind..]);
     Some(right)
+}
+
+/// "No wait, three of them": the number that is meant.
+fn without_of_them(meant: &[Lexeme]) -> &[Lexeme] {
+    let number = numbers::number(meant).map(|(_, words)| words);
+    let of = number
+        .and_then(|words| longest_phrase(&meant[words..], &["of them", "of those", "of these", "in all"]));
+    match (number, of) {
+        (Some(words), Some(of)) if words + of == meant.len() => &meant[..words],
+        _ => meant,
+    }
+}
+
+/// "Closer to Anna, I mean right next to her": her is who stood behind the place that is taken back.
+fn with_its_anchor(meant: &[Lexeme], instead_of: &[Lexeme]) -> Option<Vec<Lexeme>> {
+    let (_, way) = longest(meant, &WAYS)?;
+    let (_, old) = longest(instead_of, &WAYS).filter(|(_, words)| *words < instead_of.len())?;
+    let is_open = longest_phrase(&meant[way..], &["him", "her", "it", "them"]) == Some(meant.len() - way);
+    is_open.then(|| meant[..way].iter().chain(&instead_of[old..]).cloned().collect())
 }
 
 /// "No, make it purple": the colour, or the size, that is meant.
@@ -256,6 +282,9 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
 
 /// "The black one" in the place of the white car is the black car.
 fn with_its_noun(meant: &[Lexeme], instead_of: &[Lexeme]) -> Vec<Lexeme> {
+    if let Some(plain) = with_its_anchor(meant, instead_of) {
+        return plain;
+    }
     // "A red car" is told by its noun, and not by the colour that is taken back.
     let is_noun =
         |at: &usize| category(&instead_of[*at..]).is_some() && longest(&instead_of[*at..], PAINTS).is_none();

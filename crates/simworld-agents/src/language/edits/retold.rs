@@ -4,6 +4,7 @@
 //! clauses that only say why are left out. This is tried last, and what it makes is read as any sentence: what stays unclear stays
 //! refused. No clause is left out that asks for something by itself, denies something, or that a pronoun of the rest may be about.
 
+use super::super::compass::DIRECTIONS;
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::paint::PAINTS;
@@ -14,7 +15,7 @@ use super::parse::Reader;
 use super::polite::CODA;
 use super::sayings::SAYINGS;
 use super::turns::{ASIDES, BEFORE_ALL, FILLERS, TURNS};
-use super::words::VERBS;
+use super::words::{VERBS, Way};
 
 /// "We're having a party: ...": an occasion is nothing that is to be put anywhere.
 fn without_occasion(lexemes: &mut Vec<Lexeme>) {
@@ -272,12 +273,12 @@ fn without(lexemes: &[Lexeme], asides: &Phrases) -> Vec<Lexeme> {
 }
 
 /// The sentences, each with the mark at its end.
-fn sentences(lexemes: &[Lexeme]) -> impl Iterator<Item = &[Lexeme]> {
+pub(super) fn sentences(lexemes: &[Lexeme]) -> impl Iterator<Item = &[Lexeme]> {
     lexemes.split_inclusive(|lexeme| lexeme.token == Token::Break)
 }
 
 /// Where the marks at the end begin.
-fn last_mark(lexemes: &[Lexeme]) -> usize {
+pub(super) fn last_mark(lexemes: &[Lexeme]) -> usize {
     lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1)
 }
 
@@ -299,7 +300,7 @@ fn before_so(lexemes: &[Lexeme]) -> Option<(usize, usize)> {
 }
 
 /// A table of turns of phrase.
-type Turns = [(&'static str, &'static str)];
+pub(super) type Turns = [(&'static str, &'static str)];
 
 /// Each sentence by the turns of phrase of all tables.
 fn told_plainly(lexemes: &[Lexeme]) -> Vec<Lexeme> {
@@ -329,13 +330,13 @@ fn told_by(lexemes: &[Lexeme], tables: &[&Turns]) -> Vec<Lexeme> {
 }
 
 /// Where words of politeness begin behind the last comma, if nothing else stands there.
-fn before_kind_words(words: &[Lexeme]) -> Option<usize> {
+pub(super) fn before_kind_words(words: &[Lexeme]) -> Option<usize> {
     let comma = words.iter().rposition(|lexeme| lexeme.token == Token::Comma).filter(|comma| *comma > 0)?;
     (longest_phrase(&words[comma + 1..], CODA) == Some(words.len() - comma - 1)).then_some(comma)
 }
 
 /// What the words mean by a turn of phrase, if they are one.
-fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<Lexeme>> {
+pub(super) fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<Lexeme>> {
     let pattern: Vec<&str> = said.split(' ').collect();
     // Most patterns have a word that the sentence has not.
     let is_said =
@@ -357,7 +358,7 @@ fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<Lexeme>> {
         if let Some((_, from, to)) = bound.iter().find(|(name, ..)| *name == part) {
             made.extend_from_slice(&words[*from..*to]);
         } else if part == "," {
-            made.push(Lexeme { token: Token::Comma, ..place.clone() });
+            made.push(Lexeme { token: Token::Comma, lemma: None, ..place.clone() });
         } else {
             made.extend(words_at(place, part));
         }
@@ -382,6 +383,7 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     if !is_any {
         let here = words.get(at).is_some_and(|lexeme| match &lexeme.token {
             Token::Comma => first.split('|').any(|said| said == ","),
+            Token::Break => first.split('|').any(|said| said == "."),
             Token::Word(word) => first.split('|').any(|said| said == word),
             _ => false,
         });
@@ -393,7 +395,9 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     let most = if ["M", "D", "E", "X"].contains(first) { 3 } else { words.len() - at };
     for count in least..=most.min(words.len() - at) {
         let part = &words[at..at + count];
-        if !is_open && part.iter().any(is_mark) {
+        // The comma of "(3, 4)" ends nothing.
+        let ends = |at: usize| is_mark(&words[at]) && !(at > 1 && words[at - 2].token == Token::Open);
+        if !is_open && (at..at + count).any(ends) {
             break;
         }
         if *first == "M" && !is_measure(part)
@@ -422,13 +426,17 @@ fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
             category(words).is_some_and(|(_, count)| count == words.len())
                 || matches!(words, [only] if super::follow::species(only).is_some())
         }
-        "F" => whole(longest(words, &super::words::FACTORS).map(|(_, count)| count)),
+        "F" => {
+            let times = || super::sizes::factor_in_numbers(words).map(|(_, count)| count);
+            whole(longest(words, &super::words::FACTORS).map(|(_, count)| count)) || whole(times())
+        }
         "Y" | "Z" => {
             whole(longest(words, &super::words::SKIES).map(|(_, count)| count))
                 || whole(super::sky::hour(words).map(|(_, count)| count))
         }
         "U" => matches!(words, [Lexeme { token: Token::Word(word), .. }] if word.ends_with("est")),
-        "W" => longest(words, &super::words::WAYS).is_some(),
+        "W" => is_somewhere(words),
+        "R" => whole(longest(words, &super::words::WAYS).map(|(_, count)| count)),
         "N" | "V" => {
             words.len() > 1
                 && longest_phrase(words, &["the", "that", "this", "my", "our", "these", "those", "both"])
@@ -437,6 +445,22 @@ fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
         "X" => !(0..words.len()).any(|at| longest(&words[at..], &super::words::WAYS).is_some()),
         _ => true,
     }
+}
+
+/// "Behind the school", and neither "behind" nor "behind the".
+fn is_somewhere(words: &[Lexeme]) -> bool {
+    let is_compass = longest(words, DIRECTIONS).is_some_and(|(_, count)| {
+        longest_phrase(&words[count..], &["of"]).is_some_and(|of| words.len() > count + of + 1)
+    });
+    is_compass
+        || longest(words, &super::words::WAYS).is_some_and(|(way, count)| {
+            let rest = &words[count..];
+            let the = longest_phrase(rest, &["the", "a", "an", "my", "our", "this", "that"]).unwrap_or(0);
+            match way {
+                Way::Here | Way::There => rest.is_empty() || is_somewhere(rest),
+                _ => !super::repairs::needs_anchor(way) || rest.len() > the,
+            }
+        })
 }
 
 /// Whether an order may follow: "they have a bench" is none.

@@ -55,9 +55,14 @@ fn that_one(lexemes: &mut Vec<Lexeme>) {
     const THAT: &Phrases = &Phrases::of(&["that one", "this one", "that very one", "exactly that one"]);
     let Some(there) = longest_phrase(lexemes, THERE) else { return };
     let Some(end) = lexemes.iter().position(is_mark) else { return };
-    let Some(that) = (end..lexemes.len()).find(|at| longest_phrase(&lexemes[*at..], THAT).is_some()) else {
-        return;
+    // "A fallen log next to it": it is what was told of in its place.
+    let is_it = |at: usize| {
+        let way =
+            |from: usize| longest(&lexemes[from..at], &WAYS).is_some_and(|(_, words)| from + words == at);
+        word(lexemes, at) == "it" && (at.saturating_sub(4)..at).any(way)
     };
+    let points = |at: &usize| longest_phrase(&lexemes[*at..], THAT).is_some() || is_it(*at);
+    let Some(that) = (end..lexemes.len()).find(points) else { return };
     let what = &lexemes[there.min(end)..end];
     let Some((_, noun)) = category(what) else { return };
     // "The white one" among cars is the white car.
@@ -75,7 +80,7 @@ fn that_one(lexemes: &mut Vec<Lexeme>) {
     }
     let is_placed = longest(&what[noun..], &WAYS).is_some();
     if is_placed {
-        let words = longest_phrase(&lexemes[that..], THAT).unwrap_or(0);
+        let words = longest_phrase(&lexemes[that..], THAT).unwrap_or(1);
         lexemes.splice(that..that + words, told);
         lexemes.drain(..=end);
     }

@@ -43,6 +43,10 @@ impl Reader<'_> {
     fn named_there(&self, at: usize, from: usize) -> Option<Reference> {
         let is_one = self.word(from - 1) == Some("one");
         let said = |word: &str| (0..at).any(|before| self.word(before) == Some(word));
+        // "Away with the blue bench; put the chair where that bench was".
+        if let Some(that) = self.that_was_taken(at, from) {
+            return Some(that);
+        }
         let was = !matches!(self.word(from), Some("is" | "stands"));
         let goes = was && self.moved_verb(at, true).is_some();
         if !self.is_certain(at + 1) || !(goes || self.word(from - 1).is_some_and(said)) {
@@ -55,6 +59,17 @@ impl Reader<'_> {
         let noun = self.last_noun(0, at)?;
         let words: Vec<Lexeme> = self.lexemes[at + 1..from - 1].iter().chain(&noun).cloned().collect();
         self.over(&words).one_of(0, words.len()).ok()
+    }
+
+    /// What the order before is about, where "that bench" stands behind "where" and it is a bench.
+    fn that_was_taken(&self, at: usize, from: usize) -> Option<Reference> {
+        let that = matches!(self.word(at + 1), Some("that" | "this")) && at + 2 < from;
+        let verb = self.moved_verb(at, true).filter(|_| that)?;
+        let mut parser = self.parser(verb, at);
+        let what = parser.reference(0).ok()?;
+        let end = parser.at;
+        let is_named = |noun: usize| (verb..end).any(|at| self.word(at) == self.word(noun));
+        (self.is_certain(verb) && (at + 2..from).all(is_named)).then_some(what)
     }
 
     /// All that was taken away, where "each of them" stands behind "where".

@@ -4,13 +4,58 @@ use simworld_core::seam::PlanError;
 
 use super::super::lexer::Token;
 use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::words::{VERBS, Verb};
+
+/// That somebody is to do something.
+#[rustfmt::skip]
+const SHALL: &Phrases = &Phrases::of(&["should", "must", "could", "shall", "can", "may", "has to", "needs to", "ought to", "is to", "wants to", "had better", "better", "would like to", "might", "should please", "will", "should not", "shouldnt", "mustnt"]);
+/// What somebody does, and no thing.
+#[rustfmt::skip]
+const GOES: &Phrases = &Phrases::of(&["come", "go", "move", "walk", "stand", "sit", "wait", "look", "face", "turn", "join", "step", "stay", "be", "run", "head", "hurry", "leave", "please", "stop", "follow", "now", "just", "swap", "watch", "get", "rather", "really"]);
+/// Words that begin a sentence and are no names.
+#[rustfmt::skip]
+const NO_NAMES: &Phrases = &Phrases::of(&["it", "he", "she", "they", "we", "you", "i", "that", "this", "these", "those", "there", "everything", "nothing", "something", "everybody", "everyone", "nobody", "somebody", "someone", "people", "all", "both", "the", "a", "an", "one", "my", "our", "your", "his", "her", "their", "what", "who", "which", "where", "how", "when", "if", "here", "now", "any", "anyone", "each", "every", "some", "and", "not", "no", "two", "three", "four", "five", "snow", "rain", "fog", "night", "day"]);
 
 impl Reader<'_> {
     /// That what the first order is about is not there, where nothing else is understood of the sentence.
     pub(super) fn stranger(&self) -> Option<PlanError> {
         self.not_taken(self.lexemes.len()).or_else(|| self.unknown_name())
+    }
+
+    /// "Professor Novak should move next to the fountain": a name that nobody bears, before what somebody should do.
+    ///
+    /// Of names of one word nothing but their place is known, so that they may be a thing; those of more have capitals within a sentence.
+    pub(super) fn unknown_somebody(&self, least: usize) -> Option<PlanError> {
+        const LONGEST: usize = 3;
+        let begins = |at: &usize| {
+            *at == 0
+                || super::super::lexer::is_mark(&self.lexemes[at - 1])
+                || self.word(at - 1) == Some("and")
+        };
+        (0..self.lexemes.len()).filter(begins).find_map(|from| {
+            let end = (from + least..=from + LONGEST).find(|at| {
+                let rest = self.lexemes.get(*at..).unwrap_or_default();
+                let shall = longest_phrase(rest, SHALL).unwrap_or(0);
+                shall > 0 && longest_phrase(&rest[shall..], GOES).is_some()
+            })?;
+            let name = self.written(from, end);
+            let is_name = |word: &str| {
+                word.starts_with(char::is_uppercase) && word.chars().skip(1).all(char::is_lowercase)
+            };
+            let said = &self.lexemes[from..end];
+            let whole = |at: usize, words: usize| at + words == said.len();
+            let is_known = (0..said.len()).any(|at| {
+                category(&said[at..]).is_some_and(|(_, words)| whole(at, words))
+                    || self.names.asset_words(&said[at..]).is_some_and(|words| whole(at, words))
+                    || self.names.exact(&said[at..]).is_some()
+                    || self.view.streets.is_some_and(|streets| streets.at(&said[at..]).is_some())
+            });
+            let is_small = longest_phrase(said, NO_NAMES).is_some();
+            (name.split(' ').all(is_name) && !is_known && !is_small)
+                .then(|| PlanError::NotFound { wanted: name, near: "nobody here is called so".to_owned() })
+        })
     }
 
     /// A name that nobody bears, just behind a verb: a capital within the sentence, and no word for a thing.

@@ -12,7 +12,7 @@ pub(super) const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah
     "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "pretty please", "pretty pleas", "if nobody minds", "to sleep in", "to sleep on", "to hide in", "to climb on", "be a dear", "be an angel", "after all", "for crying out loud"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
-/// none, `O` too where an order may follow, `M` is a measure, `D` and `E` an article or a number, `H` a noun of the scene, `K` a colour, `W` a place, `N` and `V`
+/// none, `O` too where an order may follow, `M` is a measure, `D` and `E` an article or a number, `H` a noun of the scene, `K` a colour, `W` a place, `R` a word of place alone, `N` and `V`
 /// certain things, `X` up to three words without a place, `F` how many times as large, `Y` a sky, `U` a superlative; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 pub(super) const TURNS: &[(&str, &str)] = &[
@@ -340,7 +340,7 @@ pub(super) const TURNS: &[(&str, &str)] = &[
     ("N is a|- bit|little|rather|- A , F would be|do B", "make N F"),
     ("can|could N please|- have|get D A out|at the front", "put D A in front of N"),
     ("no A needed|wanted|required here|there any|no more|longer , P", "remove the A"),
-    ("O move|bring|shift|take|push|get|drive|drag A over|closer|nearer|across|up|- to N , right|just|directly|- W it|him|her", "O move A W N"),
+    ("O move|bring|shift|take|push|get|drive|drag A over|closer|nearer|across|up|- to N , right|just|directly|- R it|him|her", "O move A R N"),
     ("i|we want|wish|like that D A is|are|be|stands|waits waiting|standing|parked|sitting|- W", "put D A W"),
     ("P make that A is|are looking|facing|turned to|at|towards|- B", "make A face B"),
     ("P make that A looks|faces to|at|towards|- the N", "make A face the N"),

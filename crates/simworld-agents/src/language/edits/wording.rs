@@ -1,0 +1,189 @@
+//! Single words that are put plainly wherever they stand: "five metres up north", "in the direction of the statue", "the bin that is nearest to
+//! the stop", "with the exception of"; and what is said while somebody thinks, within a part that goes on behind it ("I need, let me think, a bin").
+
+use super::super::compass::DIRECTIONS;
+use super::super::lexer::{Lexeme, Token, is_mark};
+use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::numbers;
+use super::super::phrases::Phrases;
+use super::forms::{word, words_at};
+use super::words::WAYS;
+
+/// Phrases, and the plainer ones that mean the same.
+#[rustfmt::skip]
+const PLAINER: &[(&Phrases, &str)] = &[
+    (&Phrases::of(&["in the direction of", "into the direction of", "in direction of", "in the general direction of"]), "towards"),
+    (&Phrases::of(&["with the exception of", "with exception of", "with the sole exception of", "excepting", "to the exclusion of"]), "except for"),
+];
+/// What is said while somebody thinks.
+#[rustfmt::skip]
+const THINKS: &Phrases = &Phrases::of(&["let me think", "let me see", "let me think a moment", "let me think for a moment", "now let me think", "whats the word", "what is the word", "whats it called", "what is it called", "how do you say", "how do you call it", "what do you call it", "whats the name", "i dont know", "i dunno", "dunno", "let us see", "lets see", "how shall i put it", "how do i put it",
+    "how do i say this", "how should i say", "give me a second", "one moment", "just a second", "wait a second", "where was i", "what was it", "what was it again", "whats it called again", "what do they call it", "what shall i say", "shall we say", "lets say", "say", "you know", "hmm", "hm", "er", "erm", "um", "uh", "umm", "oh", "well", "for example", "for instance", "i guess", "i think", "maybe", "perhaps"]);
+/// Words at which nothing ends.
+#[rustfmt::skip]
+const UNFINISHED: &Phrases = &Phrases::of(&["be", "need", "needs", "want", "wants", "add", "put", "place", "like", "have", "has", "a", "an", "the", "with", "next to", "beside", "behind", "near", "in front of", "of", "get", "build", "plant", "place", "park", "set", "remove", "delete", "paint", "move", "turn", "make", "give me", "see", "to", "between", "opposite", "by", "some", "from", "for", "my", "our"]);
+
+/// Puts them plainly.
+pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
+    plainer(lexemes);
+    without_thinking(words, lexemes);
+    straight_on(lexemes);
+    that_is_nearest(lexemes);
+}
+
+fn plainer(lexemes: &mut Vec<Lexeme>) {
+    let mut at = 0;
+    while at < lexemes.len() {
+        let found = PLAINER
+            .iter()
+            .find_map(|(said, plain)| longest_phrase(&lexemes[at..], *said).map(|words| (words, *plain)));
+        if let Some((words, plain)) = found {
+            let place = lexemes[at].clone();
+            let plain: Vec<Lexeme> = words_at(&place, plain).collect();
+            lexemes.splice(at..at + words, plain);
+        }
+        at += 1;
+    }
+}
+
+/// "I need, let me think, a bin": where nothing can end, what is said between two commas goes with both of them.
+fn without_thinking(words: &str, lexemes: &mut Vec<Lexeme>) {
+    let mut at = 1;
+    while at + 1 < lexemes.len() {
+        let unfinished = (at.saturating_sub(3)..at)
+            .any(|from| longest_phrase(&lexemes[from..at], UNFINISHED) == Some(at - from));
+        let is_soft = |mark: &Lexeme| is_mark(mark) && !is_end(words, mark);
+        if unfinished && is_soft(&lexemes[at]) {
+            let behind = at + lexemes[at..].iter().take_while(|mark| is_soft(mark)).count();
+            let thought = longest_phrase(&lexemes[behind.min(lexemes.len())..], THINKS)
+                .map(|count| behind + count)
+                .filter(|end| lexemes.get(*end).is_some_and(is_soft));
+            let end = thought.map(|end| end + lexemes[end..].iter().take_while(|mark| is_soft(mark)).count());
+            // The sound between the commas may be left out already.
+            let between = words.get(lexemes[at - 1].end..lexemes.get(behind).map_or(0, |next| next.start));
+            let sounded =
+                behind > at + 1 || between.is_some_and(|between| between.chars().any(char::is_alphabetic));
+            if let Some(end) = end.or((sounded && behind < lexemes.len()).then_some(behind)) {
+                lexemes.drain(at..end);
+            }
+        }
+        at += 1;
+    }
+}
+
+/// Whether a mark is one that ends a sentence.
+fn is_end(words: &str, mark: &Lexeme) -> bool {
+    mark.token == Token::Break
+        && words.get(mark.start..).is_some_and(|rest| rest.starts_with(['.', '!', '?', ';', ':']))
+}
+
+/// "Five metres up north", "three steps further to the left": so far north, and so far to the left.
+fn straight_on(lexemes: &mut Vec<Lexeme>) {
+    const ON: &Phrases = &Phrases::of(&[
+        "up",
+        "down",
+        "over",
+        "out",
+        "further",
+        "farther",
+        "due",
+        "straight",
+        "directly",
+        "further up",
+        "further down",
+        "more",
+        "right",
+        "across",
+        "along",
+        "on",
+        "further on",
+        "up to the",
+        "over to the",
+        "further to the",
+        "down to the",
+        "up towards the",
+        "towards the",
+        "up towards",
+        "straight to the",
+    ]);
+    let mut at = 1;
+    while at + 1 < lexemes.len() {
+        let measure = (at.saturating_sub(3)..at).any(|from| {
+            numbers::length(&lexemes[from..at]).is_some_and(|(_, words)| words > 1 && from + words == at)
+        });
+        let on = longest_phrase(&lexemes[at..], ON).filter(|_| measure);
+        let is_way =
+            |from: usize| lexemes.get(from..).is_some_and(|rest| longest(rest, DIRECTIONS).is_some());
+        if let Some(words) = on.filter(|words| is_way(at + words)) {
+            lexemes.drain(at..at + words);
+        }
+        at += 1;
+    }
+}
+
+/// "The bin that is nearest to the stop" is the bin nearest to it.
+fn that_is_nearest(lexemes: &mut Vec<Lexeme>) {
+    const THAT_IS: &Phrases = &Phrases::of(&[
+        "that is",
+        "thats",
+        "that are",
+        "which is",
+        "which are",
+        "that stands",
+        "which stands",
+        "that lies",
+        "who is",
+        "whos",
+        "who stands",
+        "that sits",
+        "located",
+        "standing",
+        "situated",
+    ]);
+    const FARTHEST: usize = 6;
+    let mut at = 2;
+    while at + 2 < lexemes.len() {
+        let that = longest_phrase(&lexemes[at..], THAT_IS).filter(|words| {
+            matches!(word(lexemes, at + words), "nearest" | "closest")
+                && word(lexemes, at + words + 1) == "to"
+        });
+        let is_noun = (at.saturating_sub(3)..at)
+            .any(|from| category(&lexemes[from..at]).is_some_and(|(_, words)| from + words == at));
+        // "The tree in the park that's closest to Ada" is no park.
+        let of_place = (at.saturating_sub(FARTHEST)..at - 1).any(|from| {
+            longest(&lexemes[from..], &WAYS).is_some() && super::phrased::ends_which(lexemes, from)
+        });
+        if let Some(words) = that.filter(|_| is_noun && !of_place) {
+            lexemes.drain(at..at + words);
+        }
+        at += 1;
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    let plainer = PLAINER.iter().flat_map(|(said, _)| said.iter());
+    plainer.chain(THINKS).flat_map(|phrase| phrase.split(' '))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::lexer::rewritten;
+    use super::*;
+
+    fn plain(said: &str) -> String {
+        rewritten(said, |lexemes| in_plain_words(said, lexemes))
+    }
+
+    #[test]
+    fn what_is_said_while_thinking_goes_with_its_commas() {
+        assert_eq!(plain("by the office I need, let me think, a bin"), "by the office i need a bin");
+        assert_eq!(plain("add a bench, let me think, and a bin"), "add a bench , let me think , and a bin");
+    }
+
+    #[test]
+    fn directions_and_the_nearest_are_told_plainly() {
+        assert_eq!(plain("push it five metres up north"), "push it five metres north");
+        assert_eq!(plain("the bin that is nearest to the stop"), "the bin nearest to the stop");
+    }
+}
