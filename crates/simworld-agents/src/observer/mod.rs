@@ -2,7 +2,6 @@
 
 mod frame;
 mod gps;
-mod nearest;
 mod scene_graph;
 mod screens;
 mod senses;

@@ -3,14 +3,13 @@
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Aabb, Point2, Vector2, direction, heading, yaw_of};
+use simworld_core::geometry::{Aabb, Vector2, direction, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::{cos, wrap_angle};
 use simworld_core::scene::{EntityKind, EntityRef, OPEN, Role, Scene};
 use simworld_core::seam::{ObserveError, Observer};
 
 use super::gps::{GpsFix, GpsObserver};
-use super::nearest::Nearest;
 use super::screens::Screens;
 use crate::executor::{eyes, hides, looked_at};
 
@@ -68,9 +67,9 @@ pub struct SceneGraphObserver {
     most: usize,
     through: bool,
     gps: GpsObserver,
-    /// What hides things and what is around, kept from one observation to the next for their memory alone.
+    /// What hides things and what is seen, kept from one observation to the next for their memory alone.
     screens: Screens,
-    around: Nearest,
+    seen: Vec<(f64, EntityId)>,
 }
 
 impl SceneGraphObserver {
@@ -83,7 +82,7 @@ impl SceneGraphObserver {
             through: true,
             gps: GpsObserver::exact(),
             screens: Screens::default(),
-            around: Nearest::default(),
+            seen: Vec::new(),
         }
     }
 
@@ -134,21 +133,21 @@ impl Observer for SceneGraphObserver {
         });
         out.oneself.with.sort_unstable();
         out.feedback.clear();
-        let view = View::new(&me, self.field_of_view);
-        self.look(scene, &me, &view);
+        self.look(scene, &me);
         let mut spare = std::mem::take(&mut out.sightings);
         let mut kept = 0;
-        while kept < self.most
-            && let Some((distance, id)) = self.next(scene, &me)
-        {
-            let Some(entity) = scene.entity(id) else { continue };
+        for (distance, id) in &self.seen {
+            if kept == self.most {
+                break;
+            }
+            let Some(entity) = scene.entity(*id) else { continue };
             if !self.through && self.is_hidden(&me, &entity) {
                 continue;
             }
-            let bearing = view.bearing(&entity);
+            let bearing = bearing(&me, &entity);
             match spare.get_mut(kept) {
-                Some(place) => place.set(&entity, distance, bearing),
-                None => spare.push(Sighting::of(&entity, distance, bearing)),
+                Some(place) => place.set(&entity, *distance, bearing),
+                None => spare.push(Sighting::of(&entity, *distance, bearing)),
             }
             kept += 1;
         }
@@ -159,34 +158,34 @@ impl Observer for SceneGraphObserver {
 }
 
 impl SceneGraphObserver {
-    /// Gathers what may be within the radius and is in the field of view, and what could hide it.
-    fn look(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, view: &View) {
-        /// A rounded distance to a box may be beyond the thing in it by less than this, m.
-        const SLACK: f64 = 1e-6;
-        let (here, through, radius) = (view.here, self.through, self.radius);
-        let Self { around, screens, .. } = self;
+    /// Gathers what is within the radius and the field of view, nearest first, and what could hide it.
+    fn look(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) {
+        let (here, through) = (me.planar(), self.through);
+        let view = View::new(me, self.field_of_view);
+        let Self { seen, screens, radius, .. } = self;
+        seen.clear();
         screens.clear();
-        around.fill(|put| {
-            let _ = scene.visit(&Aabb::column_around(here, radius), &mut |entity| {
-                if entity.id == me.id || !is_thing(entity.kind) {
-                    return ControlFlow::Continue(());
-                }
-                if view.holds(&entity) {
-                    put(entity.id, (entity.bounds.planar_distance(&here) - SLACK).max(0.0));
-                }
-                if !through && hides(&entity) && within(&entity, &here, radius).is_some() {
+        let _ = scene.visit(&Aabb::column_around(here, *radius), &mut |entity| {
+            if entity.id == me.id || !is_thing(entity.kind) || !entity.is_visible() {
+                return ControlFlow::Continue(());
+            }
+            let (hides, in_view) = (!through && hides(&entity), view.holds(me, &entity));
+            if !hides && !in_view {
+                return ControlFlow::Continue(());
+            }
+            let distance = entity.info.shape.planar_distance(entity.pose, &here);
+            if distance <= *radius {
+                if hides {
                     screens.push(&entity, here);
                 }
-                ControlFlow::Continue(())
-            });
+                if in_view {
+                    seen.push((distance, entity.id));
+                }
+            }
+            ControlFlow::Continue(())
         });
         screens.sort();
-    }
-
-    /// The next nearest thing that is shown within the radius.
-    fn next(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) -> Option<(f64, EntityId)> {
-        let (here, radius) = (me.planar(), self.radius);
-        self.around.next(|id| within(&scene.entity(id)?, &here, radius))
+        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
 
     /// Whether something large stands between the eyes and the middle of a thing, and the eyes and its top.
@@ -201,49 +200,38 @@ impl SceneGraphObserver {
     }
 }
 
-/// How far away a thing is, m, if it is shown within a radius.
-fn within(entity: &EntityRef<'_>, here: &Point2, radius: f64) -> Option<f64> {
-    let distance = entity.info.shape.planar_distance(entity.pose, here);
-    (distance <= radius && entity.is_visible()).then_some(distance)
-}
-
 /// The field of view; an angle is worked out only for what is near its edge.
 struct View {
-    here: Point2,
-    yaw: f64,
-    ahead: Vector2,
     half: f64,
-    /// The cosine of `half`; `None` if one sees all round.
-    edge: Option<f64>,
+    edge: f64,
+    ahead: Vector2,
 }
 
 impl View {
     fn new(me: &EntityRef<'_>, across: f64) -> Self {
-        let (half, yaw) = (across * 0.5, yaw_of(me.pose));
-        let edge = (half < std::f64::consts::PI).then(|| cos(half.max(0.0)));
-        Self { here: me.planar(), yaw, ahead: direction(yaw), half, edge }
+        let half = across * 0.5;
+        let edge = if half < std::f64::consts::PI { cos(half.max(0.0)) } else { -2.0 };
+        Self { half, edge, ahead: direction(yaw_of(me.pose)) }
     }
 
-    fn holds(&self, other: &EntityRef<'_>) -> bool {
+    fn holds(&self, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
         /// The cosine of an angle so near to the edge may be on the wrong side of it.
         const CLOSE: f64 = 1e-9;
-        let Some(edge) = self.edge else { return true };
-        let offset = other.bounds.center().xy() - self.here;
+        let offset = other.bounds.center().xy() - me.planar();
         let length = offset.norm();
-        let beyond = offset.dot(&self.ahead) - edge * length;
-        if beyond.abs() > CLOSE * length { beyond > 0.0 } else { self.bearing(other).abs() <= self.half }
-    }
-
-    /// Where the middle of a thing is, radians to the left of where one looks.
-    fn bearing(&self, other: &EntityRef<'_>) -> f64 {
-        let offset = other.bounds.center().xy() - self.here;
-        if offset.norm() < 1e-9 { 0.0 } else { wrap_angle(heading(&offset) - self.yaw) }
+        let beyond = offset.dot(&self.ahead) - self.edge * length;
+        if beyond.abs() > CLOSE * length { beyond > 0.0 } else { bearing(me, other).abs() <= self.half }
     }
 }
 
 /// Surfaces are where things stand, not things.
 const fn is_thing(kind: EntityKind) -> bool {
     !matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
+}
+
+fn bearing(me: &EntityRef<'_>, other: &EntityRef<'_>) -> f64 {
+    let offset = other.bounds.center().xy() - me.planar();
+    if offset.norm() < 1e-9 { 0.0 } else { wrap_angle(heading(&offset) - yaw_of(me.pose)) }
 }
 
 /// Whether a door stands open; `None` of what has none that was ever turned.
