@@ -5,7 +5,7 @@
 //! headings, and what is not to be done. A sentence without an order besides is still not understood.
 
 use super::clause::{Clause, Reference, Target};
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, word_of};
 use super::lexicon::{DETERMINERS, category, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
@@ -231,13 +231,6 @@ impl Parser<'_> {
             (self.class, self.bearers) = spoken_of;
         }
         clauses
-    }
-}
-
-fn word_of(lexeme: &Lexeme) -> &str {
-    match &lexeme.token {
-        Token::Word(word) => word,
-        _ => "",
     }
 }
 

@@ -5,7 +5,7 @@
 //! which something could be asked for otherwise. They are passed over where a sentence is not understood with them.
 
 use super::asides;
-use super::lexer::{Lexeme, Token, is_mark};
+use super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::lexicon::{DETERMINERS, category, longest, longest_phrase};
 use super::names::Names;
 use super::numbers::{duration, number};
@@ -296,11 +296,4 @@ fn tells_time(rest: &[Lexeme]) -> bool {
             &["years", "year", "oclock", "hours", "kids", "days", "weeks"],
         )
         .is_some()
-}
-
-fn word_of(lexeme: &Lexeme) -> &str {
-    match &lexeme.token {
-        Token::Word(word) => word,
-        _ => "",
-    }
 }

@@ -35,6 +35,14 @@ pub(crate) struct Lexeme {
     pub(crate) end: usize,
 }
 
+/// The word that stands there; empty if it is something else.
+pub(super) fn word_of(lexeme: &Lexeme) -> &str {
+    match &lexeme.token {
+        Token::Word(word) => word,
+        _ => "",
+    }
+}
+
 /// Whether it is a comma or the end of a sentence.
 pub(super) const fn is_mark(lexeme: &Lexeme) -> bool {
     matches!(lexeme.token, Token::Comma | Token::Break)

@@ -6,7 +6,7 @@
 //! words between become one "no", which the parser reads as the correction of a whole order.
 
 use super::compass::DIRECTIONS;
-use super::lexer::{Lexeme, Token, is_mark};
+use super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::lexicon::{FARTHEST, MOSTS, NEAREST, longest, longest_phrase};
 use super::numbers;
 use super::phrases::Phrases;
@@ -76,13 +76,6 @@ pub(super) fn mend(lexemes: &mut Vec<Lexeme>) -> Option<Vec<Lexeme>> {
         at += 1;
     }
     said
-}
-
-fn word_of(lexeme: &Lexeme) -> &str {
-    match &lexeme.token {
-        Token::Word(word) => word,
-        _ => "",
-    }
 }
 
 /// Whether somebody is told something, of which "no" may be a part.

@@ -1,7 +1,7 @@
 //! Sentences that begin anew in the middle, or end with what others begin with: "the chair, you know, the one by the oak, sit on it",
 //! "sixteen metres north, go". They are told straight only where a sentence is not understood as it is.
 
-use super::lexer::{Lexeme, Token, is_mark};
+use super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::lexicon::longest_phrase;
 use super::phrases::Phrases;
 
@@ -18,13 +18,6 @@ const LONGEST: usize = 4;
 /// The sentence as it would have been said at once, if it can be told so.
 pub(super) fn told_straight(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     verb_first(lexemes).or_else(|| described_anew(lexemes))
-}
-
-fn word_of(lexeme: &Lexeme) -> &str {
-    match &lexeme.token {
-        Token::Word(word) => word,
-        _ => "",
-    }
 }
 
 /// "Sixteen metres north, go": where to, with the verb behind.

@@ -3,7 +3,7 @@
 //! It is passed over if it is no order, states something with a subject and a verb, and asks for nothing.
 
 use super::blocks::{IF, UNLESS, UNTIL, WHEN, WHILE};
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, word_of};
 use super::lexicon::{category, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
@@ -76,13 +76,6 @@ const PRONOUNS: &[&str] = &[
     "everybody",
     "one",
 ];
-
-fn word_of(lexeme: &Lexeme) -> &str {
-    match &lexeme.token {
-        Token::Word(word) => word,
-        _ => "",
-    }
-}
 
 impl Parser<'_> {
     /// "To" before what is done there: "go to the kiosk to buy water".
