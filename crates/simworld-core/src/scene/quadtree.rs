@@ -8,6 +8,8 @@
 
 use std::ops::ControlFlow;
 
+use smallvec::SmallVec;
+
 use crate::geometry::{Aabb, Point2, Point3};
 
 const NONE: u32 = u32::MAX;
@@ -49,18 +51,24 @@ impl Cell {
 
 /// What a visit reads of a node; where the node is follows from the way down to it.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 struct Node {
-    children: [u32; 4],
-    /// Entries of this cell, ascending.
-    entries: Vec<u32>,
+    /// Entries of this cell, ascending: those of most cells have their place within the node.
+    entries: SmallVec<[u32; 8]>,
+    /// The first of its four quarters, which lie side by side: who looks at one looks at all of them. `NONE` if it has none.
+    quarters: u32,
     /// Entries of this cell and of all below.
     occupied: u32,
     parent: u32,
+    /// A bit for each quarter in which there is an entry: the others are not looked up.
+    inhabited: u8,
 }
+
+const _: () = assert!(size_of::<Node>() == 64, "a node fills one line of memory");
 
 impl Node {
     const fn new(parent: u32) -> Self {
-        Self { children: [NONE; 4], entries: Vec::new(), occupied: 0, parent }
+        Self { entries: SmallVec::new_const(), quarters: NONE, occupied: 0, parent, inhabited: 0 }
     }
 }
 
@@ -141,9 +149,16 @@ impl Quadtree {
     where
         F: FnMut(u32) -> ControlFlow<()>,
     {
-        self.visit_node(0, &self.cells[0], region, min_extent, visitor)
+        let root = &self.cells[0];
+        let is_there = self.nodes[0].occupied > 0 && root.width >= min_extent && root.reaches(region);
+        if is_there {
+            self.visit_node(0, root, region, min_extent, visitor)
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 
+    /// Visits a cell that the region reaches, and what is below.
     fn visit_node<F>(
         &self,
         node: u32,
@@ -155,20 +170,20 @@ impl Quadtree {
     where
         F: FnMut(u32) -> ControlFlow<()>,
     {
-        // A node that is too small or too far away is not even looked up.
-        if cell.width < min_extent || !cell.reaches(region) {
-            return ControlFlow::Continue(());
-        }
         let node = &self.nodes[node as usize];
-        if node.occupied == 0 {
-            return ControlFlow::Continue(());
-        }
         for entry in &node.entries {
             visitor(*entry)?;
         }
-        for (quadrant, child) in node.children.into_iter().enumerate() {
-            if child != NONE {
-                self.visit_node(child, &cell.quarter(quadrant), region, min_extent, visitor)?;
+        if node.inhabited == 0 || cell.width * 0.5 < min_extent {
+            return ControlFlow::Continue(());
+        }
+        for quadrant in 0..4 {
+            // A quarter that is empty or too far away is not even looked up.
+            if node.inhabited & 1 << quadrant != 0 {
+                let quarter = cell.quarter(quadrant);
+                if quarter.reaches(region) {
+                    self.visit_node(node.quarters + quadrant as u32, &quarter, region, min_extent, visitor)?;
+                }
             }
         }
         ControlFlow::Continue(())
@@ -193,14 +208,13 @@ impl Quadtree {
             if extent > half || half < SMALLEST_CELL {
                 return current;
             }
-            let quadrant = cell.quadrant(center);
-            if self.nodes[current as usize].children[quadrant] == NONE {
-                let child = u32::try_from(self.nodes.len()).expect("fewer than 2^32 cells fit in memory");
-                self.nodes.push(Node::new(current));
-                self.cells.push(cell.quarter(quadrant));
-                self.nodes[current as usize].children[quadrant] = child;
+            if self.nodes[current as usize].quarters == NONE {
+                let first = u32::try_from(self.nodes.len()).expect("fewer than 2^32 cells fit in memory");
+                self.nodes.extend((0..4).map(|_| Node::new(current)));
+                self.cells.extend((0..4).map(|quadrant| cell.quarter(quadrant)));
+                self.nodes[current as usize].quarters = first;
             }
-            current = self.nodes[current as usize].children[quadrant];
+            current = self.nodes[current as usize].quarters + cell.quadrant(center) as u32;
         }
     }
 
@@ -208,7 +222,13 @@ impl Quadtree {
         while node != NONE {
             let entry = &mut self.nodes[node as usize];
             entry.occupied = entry.occupied.wrapping_add_signed(change);
-            node = entry.parent;
+            let (parent, is_inhabited) = (entry.parent, entry.occupied > 0);
+            if parent != NONE {
+                let above = &mut self.nodes[parent as usize];
+                let bit = 1 << (node - above.quarters);
+                above.inhabited = if is_inhabited { above.inhabited | bit } else { above.inhabited & !bit };
+            }
+            node = parent;
         }
     }
 }

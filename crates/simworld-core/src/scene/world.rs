@@ -18,19 +18,17 @@ use digests::Digests;
 pub use error::WorldError;
 use journal::Journal;
 pub use journal::Mark;
-use slots::{check_pose, check_twist, is_called, is_same_motion};
+use slots::{Head, check_pose, check_twist, is_called, is_same_motion, nothing};
 pub use snapshot::WorldSnapshot;
 
 use super::quadtree::Quadtree;
-use super::{
-    Attachment, ClassIndex, EntityDesc, EntityInfo, EntityKind, EntityRef, NameIndex, Role, SELLS, Scene,
-};
+use super::{ClassIndex, EntityDesc, EntityInfo, EntityRef, NameIndex, Role, SELLS, Scene};
 use crate::action::Action;
 use crate::asset::{Asset, AssetError, Catalogue};
 use crate::clock::{Clock, Tick};
 use crate::environment::Environment;
 use crate::event::{Event, EventKind};
-use crate::geometry::{Aabb, Pose, Twist};
+use crate::geometry::{Pose, Twist};
 use crate::ground::Ground;
 use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
@@ -59,15 +57,11 @@ const WORLD_LIMIT: f64 = 1.3e7;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct World {
-    // One entry a slot; `infos` is `None` in free slots.
-    generations: Vec<u32>,
-    kinds: Vec<EntityKind>,
+    // One entry a slot; what lies in free slots beside their heads means nothing.
+    heads: Vec<Head>,
     poses: Vec<Pose>,
     twists: Vec<Twist>,
-    bounds: Vec<Aabb>,
-    infos: Vec<Option<EntityInfo>>,
-    /// Few things hang on others: the rest is looked through without their bonds.
-    bonds: Vec<Option<Box<Attachment>>>,
+    infos: Vec<EntityInfo>,
     digests: Digests,
     journal: Journal,
     /// Free slots; the last is taken first.
@@ -156,7 +150,7 @@ impl World {
 
     /// The number of living entities.
     pub fn len(&self) -> usize {
-        self.infos.len() - self.free.len()
+        self.heads.len() - self.free.len()
     }
 
     /// Whether nothing lives here.
@@ -166,17 +160,17 @@ impl World {
 
     /// Ids stay below this index: the length of an array beside the world.
     pub fn slots(&self) -> usize {
-        self.infos.len()
+        self.heads.len()
     }
 
     /// Every living entity, by ascending slot.
     pub fn iter(&self) -> impl Iterator<Item = EntityRef<'_>> {
-        (0..self.infos.len()).filter_map(|slot| self.in_slot(slot))
+        (0..self.heads.len()).filter_map(|slot| self.in_slot(slot))
     }
 
     /// The living entity in a slot: that of the id with this [index](EntityId::index), of whatever generation.
     pub fn slot(&self, index: usize) -> Option<EntityRef<'_>> {
-        if index < self.infos.len() { self.in_slot(index) } else { None }
+        if index < self.heads.len() { self.in_slot(index) } else { None }
     }
 
     /// A count that changes whenever an entity is spawned, removed or [altered](Self::alter): what a cache of
@@ -206,7 +200,7 @@ impl World {
             return Err(WorldError::InUse { id });
         };
         self.free.remove(position);
-        self.generations[id.index()] = id.generation();
+        self.heads[id.index()].generation = id.generation();
         self.fill(index, desc);
         Ok(())
     }
@@ -220,19 +214,20 @@ impl World {
         let slot = id.index();
         let carried: Vec<u32> = self.bonded.clone();
         for child in carried {
-            if self.bonds[child as usize].as_ref().is_some_and(|bond| bond.parent == id) {
+            if self.heads[child as usize].bond.as_ref().is_some_and(|bond| bond.parent == id) {
                 self.set_bond(child as usize, None);
             }
         }
         self.set_bond(slot, None);
         self.joints.remove(&id);
         self.links.remove(&id);
-        self.infos[slot] = None;
+        self.infos[slot] = nothing();
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).remove(id, &desc.info);
         }
         Arc::make_mut(&mut self.classes).remove(id, desc.kind, &desc.info);
-        self.generations[slot] = self.generations[slot].wrapping_add(1);
+        let head = &mut self.heads[slot];
+        (head.kind, head.generation) = (None, head.generation.wrapping_add(1));
         self.tree.remove(slot as u32);
         self.free.push(slot as u32);
         self.touch(slot);
@@ -270,7 +265,7 @@ impl World {
     ) -> Result<Option<crate::value::Value>, WorldError> {
         self.check_alive(id)?;
         self.touch(id.index());
-        let info = self.infos[id.index()].as_mut().ok_or(WorldError::Missing { id })?;
+        let info = &mut self.infos[id.index()];
         if key == SELLS {
             let names = Arc::make_mut(&mut self.names);
             names.remove_goods(id, info.attributes.get(SELLS));
@@ -289,7 +284,7 @@ impl World {
         change: impl FnOnce(&mut EntityInfo) -> R,
     ) -> Result<R, WorldError> {
         self.check_alive(id)?;
-        let info = self.infos[id.index()].as_mut().ok_or(WorldError::Missing { id })?;
+        let info = &mut self.infos[id.index()];
         let old = info.clone();
         let changed = change(info);
         if info.name != old.name {
@@ -304,8 +299,7 @@ impl World {
     /// Moves a living entity to a checked pose.
     pub(crate) fn place(&mut self, id: EntityId, pose: Pose) {
         let slot = id.index();
-        let Some(info) = &self.infos[slot] else { return };
-        let bounds = info.shape.aabb(&pose);
+        let bounds = self.infos[slot].shape.aabb(&pose);
         self.poses[slot] = pose;
         self.file(slot, bounds);
         self.touch(slot);

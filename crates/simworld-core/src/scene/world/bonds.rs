@@ -21,7 +21,7 @@ impl World {
             self.check_bond(child, bond)?;
             check_pose(&(self.poses[bond.parent.index()] * bond.parent_from_body))?;
         }
-        let old = self.bonds[child.index()].as_deref().copied();
+        let old = self.heads[child.index()].bond.as_deref().copied();
         self.bond(child, bond);
         Ok(old)
     }
@@ -73,7 +73,7 @@ impl World {
         for (child, bond) in load {
             self.check_alive(*child)?;
             check_pose(&bond.parent_from_body)?;
-            if self.bonds[child.index()].is_some() {
+            if self.heads[child.index()].bond.is_some() {
                 return Err(WorldError::Bonded { child: *child });
             }
             if desc.attachment.is_some_and(|bond| self.hangs_on(bond.parent, *child)) {
@@ -94,7 +94,8 @@ impl World {
             if ancestor == carrier {
                 return true;
             }
-            above = self.bonds.get(ancestor.index()).and_then(Option::as_ref).map(|bond| bond.parent);
+            above =
+                self.heads.get(ancestor.index()).and_then(|head| head.bond.as_ref()).map(|bond| bond.parent);
         }
         false
     }
@@ -119,8 +120,8 @@ impl World {
         for index in 0..self.bonded.len() {
             let slot = self.bonded[index] as usize;
             let pose = self.carried_pose(slot);
-            let id = EntityId::new(slot as u32, self.generations[slot]);
-            let carrier = self.bonds[slot].as_ref().map(|bond| bond.parent.index());
+            let id = EntityId::new(slot as u32, self.heads[slot].generation);
+            let carrier = self.heads[slot].bond.as_ref().map(|bond| bond.parent.index());
             let twist = carrier.map_or(Twist::ZERO, |carrier| self.twists[carrier]);
             if pose != self.poses[slot] || twist != self.twists[slot] {
                 self.twists[slot] = twist;
@@ -130,14 +131,14 @@ impl World {
     }
 
     fn carried_pose(&self, slot: usize) -> Pose {
-        match &self.bonds[slot] {
+        match &self.heads[slot].bond {
             Some(bond) => self.carried_pose(bond.parent.index()) * bond.parent_from_body,
             None => self.poses[slot],
         }
     }
 
     pub(super) fn set_bond(&mut self, slot: usize, bond: Option<Attachment>) {
-        match (&mut self.bonds[slot], bond) {
+        match (&mut self.heads[slot].bond, bond) {
             // In its place: what is held anew in each step allocates nothing.
             (Some(old), Some(bond)) => **old = bond,
             (old, bond) => *old = bond.map(Box::new),

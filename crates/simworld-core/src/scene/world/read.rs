@@ -16,6 +16,9 @@ use crate::net::{Aspect, RoadNetwork};
 use crate::scene::{ClassIndex, EntityRef, NameIndex, RayCast, RayHit, Scene};
 use crate::traffic::RoadLeg;
 
+/// So many boxes are asked for together.
+const TOGETHER: usize = 64;
+
 impl World {
     /// Visits what touches the region and may be at least `min_extent` m wide: the level of detail of a distant
     /// view, found without looking at the small things.
@@ -25,14 +28,46 @@ impl World {
         min_extent: f64,
         visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
+        let mut some = [0; TOGETHER];
+        let mut count = 0;
         self.tree.visit(region, min_extent, &mut |slot| {
-            // Most of a cell is outside: its boxes lie side by side, and nothing else of it is read.
-            if !self.bounds[slot as usize].intersects(region) {
-                return ControlFlow::Continue(());
+            some[count] = slot;
+            count += 1;
+            if count == TOGETHER {
+                self.visit_near(&mut some[..std::mem::take(&mut count)], region, visitor)
+            } else {
+                ControlFlow::Continue(())
             }
-            self.in_slot(slot as usize).map_or(ControlFlow::Continue(()), &mut *visitor)
-        })
+        })?;
+        self.visit_near(&mut some[..count], region, visitor)
     }
+
+    /// Visits those of some slots that touch the region. Nothing hangs on what the boxes are until all were asked for, so that
+    /// their memory is waited for together.
+    fn visit_near(
+        &self,
+        some: &mut [u32],
+        region: &Aabb,
+        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let mut near = 0;
+        for at in 0..some.len() {
+            let slot = some[at];
+            some[near] = slot;
+            near += usize::from(meets(&self.heads[slot as usize].bounds, region));
+        }
+        some[..near].iter().filter_map(|slot| self.in_slot(*slot as usize)).try_for_each(visitor)
+    }
+}
+
+/// Whether two boxes touch.
+#[allow(
+    clippy::needless_bitwise_bool,
+    reason = "a branch would wait for the memory of one box before it asks for the next"
+)]
+fn meets(one: &Aabb, other: &Aabb) -> bool {
+    let along = |axis: usize| (one.min[axis] <= other.max[axis]) & (other.min[axis] <= one.max[axis]);
+    along(0) & along(1) & along(2)
 }
 
 impl Scene for World {
@@ -104,7 +139,7 @@ impl Scene for World {
 
     fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
         for slot in &self.bonded {
-            if self.bonds[*slot as usize].as_ref().is_some_and(|bond| bond.parent == parent)
+            if self.heads[*slot as usize].bond.as_ref().is_some_and(|bond| bond.parent == parent)
                 && let Some(entity) = self.in_slot(*slot as usize)
             {
                 visitor(entity);

@@ -1,12 +1,45 @@
 //! The slots of the store: how entities are checked, filed and found.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{WORLD_LIMIT, World, WorldError};
 use crate::geometry::{Aabb, Pose, Twist, Vector3};
 use crate::id::EntityId;
 use crate::scene::quadtree::Quadtree;
-use crate::scene::{EntityDesc, EntityInfo, EntityKind, EntityRef, SELLS, Shape};
+use crate::scene::{
+    Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, SELLS, Shape, Solidity, Visibility,
+};
+
+/// What is asked of everything around before anything else of it is read: one line of memory a slot.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(super) struct Head {
+    pub(super) bounds: Aabb,
+    /// Few things hang on others: their bonds are kept elsewhere.
+    pub(super) bond: Option<Box<Attachment>>,
+    pub(super) generation: u32,
+    /// `None` in free slots.
+    pub(super) kind: Option<EntityKind>,
+}
+
+const _: () = assert!(size_of::<Head>() == 64, "the head of a slot fills one line of memory");
+
+/// What free slots are made of.
+pub(super) fn nothing() -> EntityInfo {
+    EntityInfo {
+        shape: Shape::Sphere { radius: 1.0 },
+        asset: None,
+        name: None,
+        place: None,
+        access: None,
+        color: None,
+        mass: None,
+        visibility: Visibility::default(),
+        solidity: Solidity::default(),
+        attributes: BTreeMap::new(),
+    }
+}
 
 impl World {
     pub(super) fn check(&self, id: EntityId, desc: &EntityDesc) -> Result<(), WorldError> {
@@ -25,8 +58,8 @@ impl World {
 
     /// The id that the next spawn gives.
     pub(super) fn next_id(&self) -> EntityId {
-        let slot = self.free.last().map_or(self.infos.len(), |slot| *slot as usize);
-        EntityId::new(slot as u32, self.generations.get(slot).copied().unwrap_or(0))
+        let slot = self.free.last().map_or(self.heads.len(), |slot| *slot as usize);
+        EntityId::new(slot as u32, self.heads.get(slot).map_or(0, |head| head.generation))
     }
 
     pub(super) fn check_alive(&self, id: EntityId) -> Result<(), WorldError> {
@@ -34,19 +67,17 @@ impl World {
     }
 
     pub(super) fn is_alive(&self, id: EntityId) -> bool {
-        let slot = id.index();
-        slot < self.infos.len() && self.generations[slot] == id.generation() && self.infos[slot].is_some()
+        let head = self.heads.get(id.index());
+        head.is_some_and(|head| head.generation == id.generation() && head.kind.is_some())
     }
 
     pub(super) fn new_slot(&mut self) -> u32 {
-        let slot = u32::try_from(self.infos.len()).expect("a world holds fewer than 2^32 entities");
-        self.generations.push(0);
-        self.kinds.push(EntityKind::Prop);
-        self.poses.push(Pose::identity());
+        let slot = u32::try_from(self.heads.len()).expect("a world holds fewer than 2^32 entities");
+        let (pose, info) = (Pose::identity(), nothing());
+        self.heads.push(Head { bounds: info.shape.aabb(&pose), bond: None, generation: 0, kind: None });
+        self.poses.push(pose);
         self.twists.push(Twist::ZERO);
-        self.bounds.push(Shape::Sphere { radius: 1.0 }.aabb(&Pose::identity()));
-        self.infos.push(None);
-        self.bonds.push(None);
+        self.infos.push(info);
         self.digests.add_slot();
         self.journal.add_slot();
         slot
@@ -56,15 +87,15 @@ impl World {
     pub(super) fn fill(&mut self, slot: u32, desc: EntityDesc) -> EntityId {
         let index = slot as usize;
         let bounds = desc.info.shape.aabb(&desc.pose);
-        self.kinds[index] = desc.kind;
+        self.heads[index].kind = Some(desc.kind);
         self.poses[index] = desc.pose;
         self.twists[index] = desc.twist;
-        let id = EntityId::new(slot, self.generations[index]);
+        let id = EntityId::new(slot, self.heads[index].generation);
         Arc::make_mut(&mut self.classes).insert(id, desc.kind, &desc.info);
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).insert(id, &desc.info);
         }
-        self.infos[index] = Some(desc.info);
+        self.infos[index] = desc.info;
         self.file(index, bounds);
         self.set_bond(index, desc.attachment);
         self.touch(index);
@@ -73,7 +104,7 @@ impl World {
     }
 
     pub(super) fn file(&mut self, slot: usize, bounds: Aabb) {
-        self.bounds[slot] = bounds;
+        self.heads[slot].bounds = bounds;
         if !self.tree.holds(&bounds) {
             self.grow_tree(&bounds);
         }
@@ -88,10 +119,8 @@ impl World {
             width *= 2.0;
             tree = Quadtree::with_width(width);
         }
-        for (slot, info) in self.infos.iter().enumerate() {
-            if info.is_some() {
-                tree.place(slot as u32, &self.bounds[slot]);
-            }
+        for (slot, head) in self.heads.iter().enumerate().filter(|(_, head)| head.kind.is_some()) {
+            tree.place(slot as u32, &head.bounds);
         }
         self.tree = tree;
     }
@@ -101,15 +130,15 @@ impl World {
     }
 
     pub(super) fn in_slot(&self, slot: usize) -> Option<EntityRef<'_>> {
-        let info = self.infos[slot].as_ref()?;
+        let head = &self.heads[slot];
         Some(EntityRef {
-            id: EntityId::new(slot as u32, self.generations[slot]),
-            kind: self.kinds[slot],
+            id: EntityId::new(slot as u32, head.generation),
+            kind: head.kind?,
             pose: &self.poses[slot],
             twist: &self.twists[slot],
-            bounds: &self.bounds[slot],
-            info,
-            attachment: self.bonds[slot].as_deref(),
+            bounds: &head.bounds,
+            info: &self.infos[slot],
+            attachment: head.bond.as_deref(),
         })
     }
 }

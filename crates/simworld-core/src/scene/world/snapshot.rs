@@ -51,8 +51,8 @@ impl World {
             roads: self.roads.clone(),
             ground: self.ground.clone(),
             assets: Arc::clone(&self.assets),
-            generations: self.generations.clone(),
-            entities: (0..self.infos.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
+            generations: self.heads.iter().map(|head| head.generation).collect(),
+            entities: (0..self.heads.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
             free: self.free.clone(),
             tree_width: self.tree.width(),
             revision: self.revision,
@@ -108,21 +108,21 @@ impl World {
             tree: Quadtree::with_width(snapshot.tree_width),
             ..Self::default()
         };
-        for _ in &snapshot.entities {
-            world.new_slot();
+        for generation in snapshot.generations {
+            let slot = world.new_slot();
+            world.heads[slot as usize].generation = generation;
         }
-        world.generations = snapshot.generations;
         world.free = snapshot.free;
         let mut bonds = Vec::new();
         for (slot, desc) in snapshot.entities.into_iter().enumerate() {
             if let Some(mut desc) = desc {
                 bonds.push((slot, desc.attachment.take()));
-                world.check(EntityId::new(slot as u32, world.generations[slot]), &desc)?;
+                world.check(EntityId::new(slot as u32, world.heads[slot].generation), &desc)?;
                 world.fill(slot as u32, desc);
             }
         }
         for (slot, bond) in bonds {
-            let child = EntityId::new(slot as u32, world.generations[slot]);
+            let child = EntityId::new(slot as u32, world.heads[slot].generation);
             let pose = world.poses[slot];
             if bond.is_some() {
                 world.attach(child, bond)?;
