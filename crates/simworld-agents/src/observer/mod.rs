@@ -2,6 +2,7 @@
 
 mod frame;
 mod gps;
+mod nearest;
 mod scene_graph;
 mod screens;
 mod senses;

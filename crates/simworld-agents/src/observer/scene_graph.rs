@@ -3,13 +3,14 @@
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Aabb, Vector2, direction, heading, yaw_of};
+use simworld_core::geometry::{Aabb, Point2, Vector2, direction, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::{cos, wrap_angle};
 use simworld_core::scene::{EntityKind, EntityRef, OPEN, Role, Scene};
 use simworld_core::seam::{ObserveError, Observer};
 
 use super::gps::{GpsFix, GpsObserver};
+use super::nearest::{Nearest, planar_gap};
 use super::screens::Screens;
 use crate::executor::{eyes, hides, looked_at};
 
@@ -69,7 +70,7 @@ pub struct SceneGraphObserver {
     gps: GpsObserver,
     /// What hides things and what is seen, kept from one observation to the next for their memory alone.
     screens: Screens,
-    seen: Vec<(f64, EntityId)>,
+    nearest: Nearest,
 }
 
 impl SceneGraphObserver {
@@ -82,7 +83,7 @@ impl SceneGraphObserver {
             through: true,
             gps: GpsObserver::exact(),
             screens: Screens::default(),
-            seen: Vec::new(),
+            nearest: Nearest::default(),
         }
     }
 
@@ -133,21 +134,21 @@ impl Observer for SceneGraphObserver {
         });
         out.oneself.with.sort_unstable();
         out.feedback.clear();
-        self.look(scene, &me);
+        let view = View::new(&me, self.field_of_view);
+        self.look(scene, &me, &view);
         let mut spare = std::mem::take(&mut out.sightings);
         let mut kept = 0;
-        for (distance, id) in &self.seen {
-            if kept == self.most {
-                break;
-            }
-            let Some(entity) = scene.entity(*id) else { continue };
+        while kept < self.most
+            && let Some((distance, id)) = self.nearest.next(scene, me.planar(), self.radius)
+        {
+            let Some(entity) = scene.entity(id) else { continue };
             if !self.through && self.is_hidden(&me, &entity) {
                 continue;
             }
-            let bearing = bearing(&me, &entity);
+            let bearing = view.bearing(&entity);
             match spare.get_mut(kept) {
-                Some(place) => place.set(&entity, *distance, bearing),
-                None => spare.push(Sighting::of(&entity, *distance, bearing)),
+                Some(place) => place.set(&entity, distance, bearing),
+                None => spare.push(Sighting::of(&entity, distance, bearing)),
             }
             kept += 1;
         }
@@ -158,34 +159,25 @@ impl Observer for SceneGraphObserver {
 }
 
 impl SceneGraphObserver {
-    /// Gathers what is within the radius and the field of view, nearest first, and what could hide it.
-    fn look(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) {
+    /// Gathers what is near and within the field of view, and what could hide it, by the boxes around them alone.
+    fn look(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, view: &View) {
         let (here, through) = (me.planar(), self.through);
-        let view = View::new(me, self.field_of_view);
-        let Self { seen, screens, radius, .. } = self;
-        seen.clear();
+        let Self { nearest, screens, radius, .. } = self;
+        nearest.clear();
         screens.clear();
         let _ = scene.visit(&Aabb::column_around(here, *radius), &mut |entity| {
-            if entity.id == me.id || !is_thing(entity.kind) || !entity.is_visible() {
+            if entity.id == me.id || !is_thing(entity.kind) {
                 return ControlFlow::Continue(());
             }
-            let (hides, in_view) = (!through && hides(&entity), view.holds(me, &entity));
-            if !hides && !in_view {
-                return ControlFlow::Continue(());
+            if !through && hides(&entity) && entity.is_visible() && planar_gap(&entity, here) <= *radius {
+                screens.push(&entity, here);
             }
-            let distance = entity.info.shape.planar_distance(entity.pose, &here);
-            if distance <= *radius {
-                if hides {
-                    screens.push(&entity, here);
-                }
-                if in_view {
-                    seen.push((distance, entity.id));
-                }
+            if view.holds(&entity) {
+                nearest.push(&entity, here);
             }
             ControlFlow::Continue(())
         });
         screens.sort();
-        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
 
     /// Whether something large stands between the eyes and the middle of a thing, and the eyes and its top.
@@ -202,6 +194,8 @@ impl SceneGraphObserver {
 
 /// The field of view; an angle is worked out only for what is near its edge.
 struct View {
+    from: Point2,
+    yaw: f64,
     half: f64,
     edge: f64,
     ahead: Vector2,
@@ -209,29 +203,30 @@ struct View {
 
 impl View {
     fn new(me: &EntityRef<'_>, across: f64) -> Self {
-        let half = across * 0.5;
+        let (half, yaw) = (across * 0.5, yaw_of(me.pose));
         let edge = if half < std::f64::consts::PI { cos(half.max(0.0)) } else { -2.0 };
-        Self { half, edge, ahead: direction(yaw_of(me.pose)) }
+        Self { from: me.planar(), yaw, half, edge, ahead: direction(yaw) }
     }
 
-    fn holds(&self, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
+    fn holds(&self, other: &EntityRef<'_>) -> bool {
         /// The cosine of an angle so near to the edge may be on the wrong side of it.
         const CLOSE: f64 = 1e-9;
-        let offset = other.bounds.center().xy() - me.planar();
+        let offset = other.bounds.center().xy() - self.from;
         let length = offset.norm();
         let beyond = offset.dot(&self.ahead) - self.edge * length;
-        if beyond.abs() > CLOSE * length { beyond > 0.0 } else { bearing(me, other).abs() <= self.half }
+        if beyond.abs() > CLOSE * length { beyond > 0.0 } else { self.bearing(other).abs() <= self.half }
+    }
+
+    /// The direction of the middle of a thing, radians to the left of where one looks.
+    fn bearing(&self, other: &EntityRef<'_>) -> f64 {
+        let offset = other.bounds.center().xy() - self.from;
+        if offset.norm() < 1e-9 { 0.0 } else { wrap_angle(heading(&offset) - self.yaw) }
     }
 }
 
 /// Surfaces are where things stand, not things.
 const fn is_thing(kind: EntityKind) -> bool {
     !matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
-}
-
-fn bearing(me: &EntityRef<'_>, other: &EntityRef<'_>) -> f64 {
-    let offset = other.bounds.center().xy() - me.planar();
-    if offset.norm() < 1e-9 { 0.0 } else { wrap_angle(heading(&offset) - yaw_of(me.pose)) }
 }
 
 /// Whether a door stands open; `None` of what has none that was ever turned.
