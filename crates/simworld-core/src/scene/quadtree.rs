@@ -4,9 +4,10 @@
 //! wide as the entry), the cell from its centre. A cell is therefore responsible for entries that reach at most
 //! half a cell beyond its border ("loose", Thatcher Ulrich 2000), an entry that moves within its cell costs
 //! nothing, and the tree's shape, hence the order of every visit, does not depend on the history of insertions.
-//! Nodes are never freed: their number is bounded by the area ever occupied.
+//! Nodes are never freed: their number is bounded by the area ever occupied. The smallest cells have none: what is in them
+//! lies in the node above, cell by cell, for most of them hold one thing or two.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use smallvec::SmallVec;
 
@@ -53,9 +54,11 @@ impl Cell {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct Node {
-    /// Entries of this cell, ascending: those of most cells have their place within the node.
-    entries: SmallVec<[u32; 8]>,
-    /// The first of its four quarters, which lie side by side: who looks at one looks at all of them. `NONE` if it has none.
+    /// Entries of this cell, and behind them those of each quarter that has no node; each part ascends.
+    entries: SmallVec<[u32; 6]>,
+    /// Where all parts but the last end.
+    ends: [u32; 4],
+    /// The first of its four quarters, which lie side by side: who looks at one looks at all of them. `NONE` if they have no node.
     quarters: u32,
     /// Entries of this cell and of all below.
     occupied: u32,
@@ -68,9 +71,61 @@ const _: () = assert!(size_of::<Node>() == 64, "a node fills one line of memory"
 
 impl Node {
     const fn new(parent: u32) -> Self {
-        Self { entries: SmallVec::new_const(), quarters: NONE, occupied: 0, parent, inhabited: 0 }
+        Self {
+            entries: SmallVec::new_const(),
+            ends: [0; 4],
+            quarters: NONE,
+            occupied: 0,
+            parent,
+            inhabited: 0,
+        }
+    }
+
+    /// Where the entries of a part lie: those of the cell itself are part zero, those of its quarters the next four.
+    fn range(&self, part: usize) -> Range<usize> {
+        let end = |part: usize| self.ends.get(part).map_or(self.entries.len(), |end| *end as usize);
+        part.checked_sub(1).map_or(0, end)..end(part)
+    }
+
+    fn insert(&mut self, entry: u32, part: usize) {
+        let range = self.range(part);
+        if let Err(position) = self.entries[range.clone()].binary_search(&entry) {
+            self.entries.insert(range.start + position, entry);
+            self.ends[part.min(4)..].iter_mut().for_each(|end| *end += 1);
+            self.mark(part);
+        }
+    }
+
+    fn remove(&mut self, entry: u32, part: usize) {
+        let range = self.range(part);
+        if let Ok(position) = self.entries[range.clone()].binary_search(&entry) {
+            self.entries.remove(range.start + position);
+            self.ends[part.min(4)..].iter_mut().for_each(|end| *end -= 1);
+            self.mark(part);
+        }
+    }
+
+    /// Notes whether there is an entry in a quarter without a node.
+    fn mark(&mut self, part: usize) {
+        if let Some(quadrant) = part.checked_sub(1) {
+            self.set_inhabited(quadrant as u32, !self.range(part).is_empty());
+        }
+    }
+
+    fn set_inhabited(&mut self, quadrant: u32, is_inhabited: bool) {
+        let bit = 1 << quadrant;
+        self.inhabited = if is_inhabited { self.inhabited | bit } else { self.inhabited & !bit };
     }
 }
+
+/// Where an entry is filed: in which node, and in which part of it.
+#[derive(Clone, Copy, Debug)]
+struct Home {
+    node: u32,
+    part: u8,
+}
+
+const NOWHERE: Home = Home { node: NONE, part: 0 };
 
 /// The tree over entries numbered by the caller; each entry brings its box.
 #[derive(Clone, Debug)]
@@ -78,8 +133,8 @@ pub(crate) struct Quadtree {
     nodes: Vec<Node>,
     /// Where each of them is: those who move ask, and visits do not.
     cells: Vec<Cell>,
-    /// The node of each entry, `NONE` if absent.
-    home: Vec<u32>,
+    /// Where each entry is, `NOWHERE` if absent.
+    home: Vec<Home>,
 }
 
 impl Default for Quadtree {
@@ -111,36 +166,30 @@ impl Quadtree {
     pub(crate) fn place(&mut self, entry: u32, bounds: &Aabb) {
         let index = entry as usize;
         if index >= self.home.len() {
-            self.home.resize(index + 1, NONE);
+            self.home.resize(index + 1, NOWHERE);
         }
         let extent = planar_extent(bounds);
         let center = bounds.center();
         let old = self.home[index];
-        if old != NONE && self.is_home(old, extent, &center) {
+        if old.node != NONE && self.is_home(old, extent, &center) {
             return;
         }
         self.remove(entry);
-        let node = self.find_or_make(extent, &center);
-        let entries = &mut self.nodes[node as usize].entries;
-        if let Err(position) = entries.binary_search(&entry) {
-            entries.insert(position, entry);
-        }
-        self.home[index] = node;
-        self.count(node, 1);
+        let home = self.find_or_make(extent, &center);
+        self.nodes[home.node as usize].insert(entry, usize::from(home.part));
+        self.home[index] = home;
+        self.count(home.node, 1);
     }
 
     /// Takes an entry out; nothing happens if it is not in.
     pub(crate) fn remove(&mut self, entry: u32) {
         let Some(home) = self.home.get_mut(entry as usize) else { return };
-        let node = std::mem::replace(home, NONE);
-        if node == NONE {
+        let home = std::mem::replace(home, NOWHERE);
+        if home.node == NONE {
             return;
         }
-        let entries = &mut self.nodes[node as usize].entries;
-        if let Ok(position) = entries.binary_search(&entry) {
-            entries.remove(position);
-        }
-        self.count(node, -1);
+        self.nodes[home.node as usize].remove(entry, usize::from(home.part));
+        self.count(home.node, -1);
     }
 
     /// Visits entries whose cell may touch the region and that may be at least `min_extent` wide, parents before
@@ -171,27 +220,32 @@ impl Quadtree {
         F: FnMut(u32) -> ControlFlow<()>,
     {
         let node = &self.nodes[node as usize];
-        for entry in &node.entries {
-            visitor(*entry)?;
-        }
+        node.entries[node.range(0)].iter().try_for_each(|entry| visitor(*entry))?;
         if node.inhabited == 0 || cell.width * 0.5 < min_extent {
             return ControlFlow::Continue(());
         }
         for quadrant in 0..4 {
             // A quarter that is empty or too far away is not even looked up.
-            if node.inhabited & 1 << quadrant != 0 {
-                let quarter = cell.quarter(quadrant);
-                if quarter.reaches(region) {
-                    self.visit_node(node.quarters + quadrant as u32, &quarter, region, min_extent, visitor)?;
-                }
+            if node.inhabited & 1 << quadrant == 0 {
+                continue;
+            }
+            let quarter = cell.quarter(quadrant);
+            if !quarter.reaches(region) {
+                continue;
+            }
+            if node.quarters == NONE {
+                node.entries[node.range(quadrant + 1)].iter().try_for_each(|entry| visitor(*entry))?;
+            } else {
+                self.visit_node(node.quarters + quadrant as u32, &quarter, region, min_extent, visitor)?;
             }
         }
         ControlFlow::Continue(())
     }
 
-    /// Whether an entry of that extent and centre belongs to this very node.
-    fn is_home(&self, node: u32, extent: f64, center: &Point3) -> bool {
-        let cell = &self.cells[node as usize];
+    /// Whether an entry of that extent and centre belongs to this very cell.
+    fn is_home(&self, home: Home, extent: f64, center: &Point3) -> bool {
+        let above = &self.cells[home.node as usize];
+        let cell = usize::from(home.part).checked_sub(1).map_or(*above, |quadrant| above.quarter(quadrant));
         let half = cell.width * 0.5;
         let inside = |offset: f64| -half <= offset && offset < half;
         extent <= cell.width
@@ -200,21 +254,25 @@ impl Quadtree {
             && inside(center.y - cell.center.y)
     }
 
-    fn find_or_make(&mut self, extent: f64, center: &Point3) -> u32 {
-        let mut current = 0;
+    fn find_or_make(&mut self, extent: f64, center: &Point3) -> Home {
+        let mut node = 0;
         loop {
-            let cell = self.cells[current as usize];
+            let cell = self.cells[node as usize];
             let half = cell.width * 0.5;
             if extent > half || half < SMALLEST_CELL {
-                return current;
+                return Home { node, part: 0 };
             }
-            if self.nodes[current as usize].quarters == NONE {
+            let quadrant = cell.quadrant(center);
+            if half * 0.5 < SMALLEST_CELL {
+                return Home { node, part: quadrant as u8 + 1 };
+            }
+            if self.nodes[node as usize].quarters == NONE {
                 let first = u32::try_from(self.nodes.len()).expect("fewer than 2^32 cells fit in memory");
-                self.nodes.extend((0..4).map(|_| Node::new(current)));
+                self.nodes.extend((0..4).map(|_| Node::new(node)));
                 self.cells.extend((0..4).map(|quadrant| cell.quarter(quadrant)));
-                self.nodes[current as usize].quarters = first;
+                self.nodes[node as usize].quarters = first;
             }
-            current = self.nodes[current as usize].quarters + cell.quadrant(center) as u32;
+            node = self.nodes[node as usize].quarters + quadrant as u32;
         }
     }
 
@@ -225,8 +283,7 @@ impl Quadtree {
             let (parent, is_inhabited) = (entry.parent, entry.occupied > 0);
             if parent != NONE {
                 let above = &mut self.nodes[parent as usize];
-                let bit = 1 << (node - above.quarters);
-                above.inhabited = if is_inhabited { above.inhabited | bit } else { above.inhabited & !bit };
+                above.set_inhabited(node - above.quarters, is_inhabited);
             }
             node = parent;
         }
