@@ -12,6 +12,16 @@ const THINKING: &Phrases = &Phrases::of(&[
     "whats it called", "what is it called", "whats the word", "how do you say", "how shall i put it", "as it were", "so to speak", "i believe", "lets say",
     "let us say", "say", "whats it", "what do you call it", "if you like", "why not", "i would say", "id say", "erm", "right", "okay", "well", "you see",
 ]);
+/// What is said before an order or behind it, by its whole words: of some of them a part would be an order.
+#[rustfmt::skip]
+const SMALL_TALK: &Phrases = &Phrases::of(&[
+    "we have to leave", "we have to leave now", "we have to go", "we have to go now", "we must leave", "we must leave now", "we must go", "we must go now", "we are leaving", "were leaving",
+    "were leaving now", "time to leave", "its time to leave", "time to go", "its time to go", "we should be going", "we should get going", "somebody must be missing it", "someone must be missing it",
+    "somebody must have lost it", "someone must have lost it", "somebody must have forgotten it", "someone must have forgotten it", "somebody left it behind", "someone left it behind",
+    "somebody left it there", "someone left it there", "somebody forgot it", "someone forgot it", "everybody is ready", "everyone is ready", "everything is ready", "we are all ready",
+    "the rain has stopped", "the rain stopped", "it has stopped raining", "its stopped raining", "it stopped raining", "the sun is out", "the sun has come out", "poor boy", "poor girl", "poor thing",
+    "poor soul", "poor fellow", "bless him", "bless her", "the view must be better there", "the view is better there", "it must be nicer there", "it is nicer there", "its nicer there",
+]);
 /// Behind which nobody pauses unless to think.
 #[rustfmt::skip]
 const UNFINISHED: &[&str] = &[
@@ -37,6 +47,7 @@ pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
     if text.contains('?') {
         without_tags(lexemes, text);
     }
+    without_small_talk(lexemes);
     let mut at = 0;
     while at < lexemes.len() {
         match &lexemes[at].token {
@@ -67,6 +78,27 @@ fn put_words(lexemes: &mut Vec<Lexeme>, from: usize, to: usize, words: &[&str]) 
         ..lexeme.clone()
     });
     lexemes.splice(from..to, new.collect::<Vec<_>>());
+}
+
+/// "We have to leave now, get into the car": what is between two marks and asks for nothing.
+fn without_small_talk(lexemes: &mut Vec<Lexeme>) {
+    let is_mark =
+        |lexeme: Option<&Lexeme>| matches!(lexeme, Some(Lexeme { token: Token::Comma | Token::Break, .. }));
+    let mut at = 0;
+    while at < lexemes.len() {
+        let begins = at == 0 || is_mark(lexemes.get(at - 1));
+        let said = if begins { longest_phrase(&lexemes[at..], SMALL_TALK) } else { None };
+        let end = said.map(|words| at + words);
+        match end {
+            Some(end) if is_mark(lexemes.get(end)) && end + 1 < lexemes.len() => {
+                lexemes.drain(at..=end);
+            }
+            Some(end) if at > 0 && (end..lexemes.len()).all(|rest| is_mark(lexemes.get(rest))) => {
+                lexemes.drain(at - 1..end);
+            }
+            _ => at += 1,
+        }
+    }
 }
 
 /// "..., isn't it?", "..., right?": what asks for a nod.

@@ -63,7 +63,7 @@ impl Parser<'_> {
         const PLACED: &Phrases = &Phrases::of(&[
             "at", "on", "in", "by", "near", "next to", "beside", "inside", "outside", "in front of", "over at",
             "down at", "up at", "over by", "from", "under", "opposite", "close to", "behind", "over to",
-            "off to", "to", "up to", "down to", "across to", "back to", "away to", "into", "back at",
+            "off to", "to", "up to", "down to", "across to", "back to", "away to", "into", "back at", "via", "by way of",
         ]);
         let start = self.at;
         if !self.eat_any(PLACED) {

@@ -223,6 +223,9 @@ impl Parser<'_> {
             let to = self.reference(0)?;
             return self.after_place(Clause::Go { to, side: None, pace, within: None }, pace);
         }
+        if leads && let Some(ways) = self.way_by_places() {
+            return Ok(ways);
+        }
         if leads && matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll)) && self.way_alone() {
             return Ok(Vec::new());
         }

@@ -127,6 +127,52 @@ impl Parser<'_> {
         via
     }
 
+    /// "The route via the hydrant and the sign to the bus stop", behind a verb: the places on the way are told first.
+    pub(super) fn way_by_places(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        let ways = self.places_to_the_end();
+        if ways.is_none() {
+            self.at = start;
+        }
+        ways
+    }
+
+    fn places_to_the_end(&mut self) -> Option<Vec<Clause>> {
+        /// Before where the way leads.
+        const ON: &Phrases = &Phrases::of(&[
+            "to",
+            "over to",
+            "on to",
+            "and on to",
+            "and then to",
+            "then to",
+            "and to",
+            "up to",
+            "down to",
+        ]);
+        // "Take the path past the statue" is a verb with its way.
+        let is_way = self.eat_any(WAYS) || matches!(self.word_before(), "path" | "road" | "way" | "route");
+        self.eat_any(LEADING);
+        if !is_way || !self.eat_any(BY) {
+            return None;
+        }
+        let mut places = vec![self.reference(0).ok()?];
+        loop {
+            let listed = matches!(self.mark(), Some(','));
+            self.at += usize::from(listed);
+            let leads_on = self.eat_any(ON);
+            if !leads_on && !self.eat_any(&["and", "and then", "then", "and via", "via"]) && !listed {
+                return None;
+            }
+            places.push(self.reference(0).ok()?);
+            if leads_on {
+                break;
+            }
+        }
+        let go = |to| Clause::Go { to, side: None, pace: Pace::Usual, within: None };
+        self.ends_clause().then(|| places.into_iter().map(go).collect())
+    }
+
     /// "Going to the willow first".
     pub(super) fn going_first(&mut self) -> Option<Reference> {
         let start = self.at;

@@ -52,6 +52,10 @@ const CASUAL: &Turns = &[
     ("O i|we|id|wed want|wish|would|like|demand|prefer|ask|insist like|prefer|wish|- that A is|are|be|stands|stand|sits|sit|goes|go|moves|waits standing|sitting|placed|parked|waiting|moved|put|- W", "O move A W"),
     ("O i|we|id|wed want|wish|would|like|demand|prefer|ask|insist like|prefer|wish|- that A is|are|be|becomes|gets painted|- K", "O paint A K"),
     ("O i|we|id|wed want|wish|would|like|demand|prefer|ask|insist like|prefer|wish|- that A is|are|be|becomes|gets|grows F", "O make A F"),
+    ("O i|we am|are wanting|wishing|hoping that|for G is|are|be|should|shall|to be|- looking|facing|turned|staring|gazing at|to|towards|toward|- B , thank|thanks|please you|-", "make G face B"),
+    ("O i|we am|are wanting|wishing|hoping that|for G is|are|be|should|shall|to be|- looking|facing|turned|staring|gazing at|to|towards|toward|- B", "make G face B"),
+    ("it|that would|will please|suit|delight|gladden|help me|us|- that|if N it|he|she|they|- goes|go|stands|stand|moves|move|comes|come|were|was|is W", "move N W"),
+    ("O bring|take|move|push|drag|carry|pull|shift N over|across|up|down|back|- to B , right|just|directly|close|immediately|- next|beside|close|by to|- it|him|her|them|there", "move N next to B"),
     ("it|- is|its high|about|- time that|- N went|goes|disappeared|vanished|left|disappears|leaves", "remove N"),
     ("it|- is|its high|about|- time that|- N was|were|is|got|gets|are removed|gone|deleted|scrapped|cleared away|-", "remove N"),
     ("it|- is|its high|about|- time that|- N was|were|got|became|is|gets painted|- K", "paint N K"),
@@ -77,6 +81,9 @@ const CASUAL: &Turns = &[
     ("how many A can|do|could|would you|we|i|one find|see|count|spot|make|notice|identify out|- here|there|around|- that|which are K", "how many K A are there"),
     ("how many A can|do|could|would you|we|i|one find|see|count|spot|make|notice|identify out|- here|there|around|-", "how many A are there"),
     ("O give|get|show|let me|us have|- a|the|some|another short|brief|full|quick|detailed|proper|little|- description|portrait|summary|account of A", "O describe A"),
+    ("how many A are there|here , not|without counting|including B", "how many A are there except B"),
+    ("its|it is|- going to be a|an A , so P", "P"),
+    ("itll|it will|- be a|an A , so P", "P"),
     // Who goes where, who looks where.
     ("please|- let|have|make|get|- G and B should|must|could|can|shall|ought|need|have|had|will|- to|better|please|- swap|switch|trade|exchange|change|swop their|- spots|seats|positions|locations|places|spot|seat|position|place with|- each|one|- other|another|-", "swap G and B"),
     ("D A comes|goes|walks|heads|moves|runs|strolls|steps|hurries|hops over|up|across|back|along|out|round|down|- to|and|- sit|sits|stand|stands|wait|waits|rest|rests|stay|stays|play|plays|be|join right|just|- W", "add D A W"),
@@ -104,6 +111,8 @@ const LONE: &Turns = &[
 #[rustfmt::skip]
 const PAIRS: &Turns = &[
     ("D A have|has|are|is|just|will|- just|been|- arrived|come|landed|arriving|coming|came|delivered|ordered|visiting|expected|appeared in|to|- town|today|now|soon|- . please|so|now|- put|place|set|scatter|spread|seat|park|leave|station|group|gather|distribute|stand|sit them|it|him|her|those|these out|- W", "put D A W"),
+    ("A came|dropped|stopped|turned|showed|arrived by|over|along|up|in|round|- with|bringing D B . please|so|now|- put|place|set|line|stand|spread|scatter|arrange|seat them|these|those|it out|up|down|about|- W , evenly|nicely|equally spread|spaced|distributed|-", "put D B evenly W"),
+    ("A came|dropped|stopped|turned|showed|arrived by|over|along|up|in|round|- with|bringing D B . please|so|now|- put|place|set|line|stand|spread|scatter|arrange|seat them|these|those|it out|up|down|about|- W", "put D B W"),
     ("D A W , wouldnt|would|how|isnt|that|thatd|itd|what X . please|so|then|just|yes|- add|put|build|make|place|get|plant|do|give me|us|- one|it|some|them|that there|please|then|-", "put D A W"),
     ("D A W . please|so|then|just|yes|- add|put|build|make|place|get|plant|do|give me|us|- one|it|some|them|that there|please|then|-", "put D A W"),
     ("would|could|might|can|may|shall|will D A be possible|ok|okay|fine|nice|feasible|doable|allowed|alright|good|great|lovely|thinkable|conceivable . please|so|then|just|yes|- add|put|build|make|place|do|plant|set|give me|us|- one|it|that|so there|please|then|-", "add D A"),

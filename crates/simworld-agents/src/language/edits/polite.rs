@@ -10,7 +10,7 @@ pub(super) const JOINTS: &Phrases = &Phrases::of(&["and", "then", "and then", "a
     "and finally", "afterwards", "first", "so", "or rather", "with"]);
 /// What is put before and behind wishes, and says nothing.
 #[rustfmt::skip]
-pub(super) const POLITE: &Phrases = &Phrases::of(&["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
+pub(super) const POLITE: &Phrases = &Phrases::of(&["please", "thanks", "thanks a lot", "thanks a bunch", "thanks so much", "thank you", "thank you so much", "thank you very much", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
     "um", "well", "could you", "can you", "would you", "will you", "can u", "could u", "i want you to",
     "i would like you to", "id like you to", "you should", "you must", "lets", "let us", "just", "try to",
     "go ahead and", "would you mind", "do you mind", "if you can", "if you could", "if possible",

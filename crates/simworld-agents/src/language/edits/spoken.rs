@@ -97,6 +97,12 @@ impl Reader<'_> {
     fn shortest_named(&self, at: usize, end: usize) -> Option<(Reference, usize)> {
         const LONGEST: usize = 6;
         (at + 2..end.min(at + LONGEST)).find_map(|cut| {
+            // "The bus stop is facing the wrong way" is not about the bus.
+            let is_within =
+                |from: usize| category(&self.lexemes[from..end]).is_some_and(|(_, words)| from + words > cut);
+            if (at..cut).any(is_within) {
+                return None;
+            }
             let thing = self.one_of(at, cut).ok().filter(|thing| !super::says::is_it(thing))?;
             Some((thing, cut))
         })

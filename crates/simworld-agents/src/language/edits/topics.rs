@@ -35,6 +35,17 @@ const MEANS: &Phrases = &Phrases::of(&["i mean", "i meant", "we mean", "i want",
 /// Words that point at one thing alone.
 const THAT_ONE: &Phrases =
     &Phrases::of(&["that one", "this one", "that very one", "this very one", "exactly that one"]);
+/// Words for a thing of its sort, whatever it was called: "do you see the office? A rack behind that building".
+const THAT_THING: &Phrases = &Phrases::of(&[
+    "that building",
+    "this building",
+    "that place",
+    "this place",
+    "that house",
+    "this house",
+    "that vehicle",
+    "that thing",
+]);
 /// Words that stand for it.
 const IT: &Phrases = &Phrases::of(&["it", "him", "her"]);
 /// So many topics are looked for.
@@ -174,7 +185,8 @@ impl Reader<'_> {
         let rest = &self.lexemes[at..];
         let that = longest_phrase(rest, &["that", "this"]).filter(|_| has_noun(&topic.said, rest.get(1)));
         let it = longest_phrase(rest, IT).filter(|_| topic.everywhere || self.is_behind_way(at));
-        longest_phrase(rest, THAT_ONE).or(that.map(|_| 2)).or(it)
+        let sort = longest_phrase(rest, THAT_THING).filter(|_| topic.everywhere);
+        longest_phrase(rest, THAT_ONE).or(that.map(|_| 2)).or(it).or(sort)
     }
 
     /// Whether a word of place ends before a word.
@@ -205,5 +217,5 @@ fn has_noun(said: &[Lexeme], word: Option<&Lexeme>) -> bool {
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    [LEADS, TAKES, MEANS, THAT_ONE].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+    [LEADS, TAKES, MEANS, THAT_ONE, THAT_THING].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
 }

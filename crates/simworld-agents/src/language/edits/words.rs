@@ -78,7 +78,7 @@ const VERB_ROWS: &[(&[&str], Verb)] = &[
         "lob", "attach", "drop off", "rig up", "stash", "post", "stow", "dot about", "stand up", "set up", "affix", "fasten", "moor", "berth", "align", "array",
         "stack", "pile", "pile up", "stack up", "assign", "dot", "dot around", "scatter around", "scatter about", "plonk down", "put out", "line them up", "spread out", "space out", "set about", "strew", "stretch", "arrange around",
         "serve", "dish up", "display", "pour", "exhibit", "showcase", "group", "cluster", "stagger", "distribute", "sling up", "hang up", "stick up"], Verb::Put),
-    (&["remove", "delete", "erase", "get rid of", "take away", "destroy", "clear away", "clear", "take out",
+    (&["remove", "delete", "erase", "get rid of", "tow away", "haul away", "take away", "destroy", "clear away", "clear", "take out",
         "demolish", "dispose of", "eliminate", "tear down", "yeet", "kill", "lose", "scrap", "knock down", "bin",
         "ditch", "we dont need", "i dont need", "we do not need", "i do not need", "i dont want", "we dont want",
         "i do not want", "nobody needs", "no more", "wipe out", "wipe", "despawn", "throw away", "throw out",

@@ -4,7 +4,7 @@ use crate::tables::lines_of;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 29] = [
+const SETS: [&str; 31] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -34,6 +34,8 @@ const SETS: [&str; 29] = [
     "twentyseventh.edits",
     "twentyeighth.edits",
     "twentyninth.edits",
+    "thirtieth.edits",
+    "thirtyfirst.edits",
 ];
 
 /// One thing that is asked, and what must then be true.

@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 19] = [
+const SETS: [&str; 21] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -53,6 +53,8 @@ const SETS: [&str; 19] = [
     "seventeenth",
     "eighteenth",
     "nineteenth",
+    "twentieth",
+    "twentyfirst",
 ];
 
 /// One thing that is said, and what it means.
