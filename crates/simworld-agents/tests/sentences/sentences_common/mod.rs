@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 21] = [
+const SETS: [&str; 20] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -54,7 +54,6 @@ const SETS: [&str; 21] = [
     "eighteenth",
     "nineteenth",
     "twentieth",
-    "twentyfirst",
 ];
 
 /// One thing that is said, and what it means.
