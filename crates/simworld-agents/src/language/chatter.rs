@@ -1,7 +1,7 @@
 //! What is said in passing within a sentence and means no more than the plain words: "you see the oak, don't you?", "and then, you
 //! know, go", "if you happen to be sitting", "farthest from where you are standing now".
 
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, is_mark};
 use super::lexicon::longest_phrase;
 use super::phrases::Phrases;
 
@@ -82,18 +82,16 @@ fn put_words(lexemes: &mut Vec<Lexeme>, from: usize, to: usize, words: &[&str]) 
 
 /// "We have to leave now, get into the car": what is between two marks and asks for nothing.
 fn without_small_talk(lexemes: &mut Vec<Lexeme>) {
-    let is_mark =
-        |lexeme: Option<&Lexeme>| matches!(lexeme, Some(Lexeme { token: Token::Comma | Token::Break, .. }));
     let mut at = 0;
     while at < lexemes.len() {
-        let begins = at == 0 || is_mark(lexemes.get(at - 1));
+        let begins = at == 0 || is_mark(&lexemes[at - 1]);
         let said = if begins { longest_phrase(&lexemes[at..], SMALL_TALK) } else { None };
         let end = said.map(|words| at + words);
         match end {
-            Some(end) if is_mark(lexemes.get(end)) && end + 1 < lexemes.len() => {
+            Some(end) if lexemes.get(end).is_some_and(is_mark) && end + 1 < lexemes.len() => {
                 lexemes.drain(at..=end);
             }
-            Some(end) if at > 0 && (end..lexemes.len()).all(|rest| is_mark(lexemes.get(rest))) => {
+            Some(end) if at > 0 && lexemes[end..].iter().all(is_mark) => {
                 lexemes.drain(at - 1..end);
             }
             _ => at += 1,

@@ -113,24 +113,7 @@ pub struct EntityDesc {
 impl EntityDesc {
     /// An entity with a kind, a pose and a shape, and nothing else yet.
     pub fn new(kind: EntityKind, pose: Pose, shape: Shape) -> Self {
-        Self {
-            kind,
-            pose,
-            twist: Twist::ZERO,
-            info: EntityInfo {
-                shape,
-                asset: None,
-                name: None,
-                place: None,
-                access: None,
-                color: None,
-                mass: None,
-                visibility: Visibility::Shown,
-                solidity: Solidity::OfItsKind,
-                attributes: BTreeMap::new(),
-            },
-            attachment: None,
-        }
+        Self { kind, pose, twist: Twist::ZERO, info: EntityInfo::of(shape), attachment: None }
     }
 
     /// With a name.
@@ -321,6 +304,22 @@ impl EntityRef<'_> {
 }
 
 impl EntityInfo {
+    /// A shape, and nothing else yet.
+    pub(super) const fn of(shape: Shape) -> Self {
+        Self {
+            shape,
+            asset: None,
+            name: None,
+            place: None,
+            access: None,
+            color: None,
+            mass: None,
+            visibility: Visibility::Shown,
+            solidity: Solidity::OfItsKind,
+            attributes: BTreeMap::new(),
+        }
+    }
+
     fn state_hash(&self, hasher: &mut StateHasher) {
         self.shape.state_hash(hasher);
         hasher.u64(self.asset.map_or(u64::MAX, |asset| u64::from(asset.0)));

@@ -1,15 +1,12 @@
 //! The slots of the store: how entities are checked, filed and found.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{WORLD_LIMIT, World, WorldError};
 use crate::geometry::{Aabb, Pose, Twist, Vector3};
 use crate::id::EntityId;
 use crate::scene::quadtree::Quadtree;
-use crate::scene::{
-    Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, SELLS, Shape, Solidity, Visibility,
-};
+use crate::scene::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, SELLS, Shape};
 
 /// What is asked of everything around before anything else of it is read: one line of memory a slot.
 #[derive(Clone, Debug)]
@@ -26,19 +23,8 @@ pub(super) struct Head {
 const _: () = assert!(size_of::<Head>() == 64, "the head of a slot fills one line of memory");
 
 /// What free slots are made of.
-pub(super) fn nothing() -> EntityInfo {
-    EntityInfo {
-        shape: Shape::Sphere { radius: 1.0 },
-        asset: None,
-        name: None,
-        place: None,
-        access: None,
-        color: None,
-        mass: None,
-        visibility: Visibility::default(),
-        solidity: Solidity::default(),
-        attributes: BTreeMap::new(),
-    }
+pub(super) const fn nothing() -> EntityInfo {
+    EntityInfo::of(Shape::Sphere { radius: 1.0 })
 }
 
 impl World {
