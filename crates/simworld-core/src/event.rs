@@ -9,6 +9,7 @@ use crate::clock::Tick;
 use crate::geometry::{Point3, Vector3};
 use crate::id::EntityId;
 use crate::scene::FallCause;
+use crate::seam::PlanStep;
 use crate::value::Value;
 
 /// Something that happened during a step.
@@ -77,6 +78,20 @@ pub enum EventKind {
         item: EntityId,
         /// Its velocity, m/s, world frame.
         velocity: Vector3,
+    },
+    /// A step of a plan was taken up.
+    StepBegun {
+        /// The agent.
+        who: EntityId,
+        /// The step, of blocks the innermost.
+        step: Box<PlanStep>,
+    },
+    /// A plan goes on otherwise than it did: by another way, or round something.
+    Rerouted {
+        /// The agent.
+        who: EntityId,
+        /// Why.
+        reason: String,
     },
     /// A plan was carried out to its end.
     PlanDone {

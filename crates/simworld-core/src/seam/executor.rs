@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::Plan;
+use super::{Plan, PlanStep};
 use crate::action::Action;
 use crate::hash::StateHasher;
 use crate::id::EntityId;
@@ -15,6 +15,16 @@ pub enum Progress {
     Idle,
     /// Under way.
     Running,
+    /// Under way; a step was taken up just now.
+    Begun {
+        /// The step, of blocks the innermost.
+        step: Box<PlanStep>,
+    },
+    /// Under way, and otherwise than before: by another way, or round something.
+    Rerouted {
+        /// Why.
+        reason: String,
+    },
     /// Carried out to the end, in this very step.
     Done,
     /// Given up, in this very step.
@@ -22,6 +32,13 @@ pub enum Progress {
         /// Why.
         reason: String,
     },
+}
+
+impl Progress {
+    /// Whether the plan is under way still.
+    pub fn goes_on(&self) -> bool {
+        matches!(self, Self::Running | Self::Begun { .. } | Self::Rerouted { .. })
+    }
 }
 
 /// Why an executor cannot work at all; a plan that merely fails is [`Progress::Failed`].

@@ -1,6 +1,9 @@
 //! What is to be done: steps in order, with conditions, repetitions and guards.
 
-use serde::{Deserialize, Serialize};
+use std::cell::Cell;
+
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::action::Action;
 use crate::geometry::Point3;
@@ -64,8 +67,10 @@ pub enum PlanStep {
         /// The condition.
         condition: Condition,
         /// What is done if it holds.
+        #[serde(deserialize_with = "nested")]
         then: Vec<Self>,
         /// What is done if not.
+        #[serde(deserialize_with = "nested")]
         otherwise: Vec<Self>,
     },
     /// Does the steps several times over.
@@ -73,6 +78,7 @@ pub enum PlanStep {
         /// How often.
         times: u32,
         /// The steps.
+        #[serde(deserialize_with = "nested")]
         steps: Vec<Self>,
     },
     /// Does the steps, from the first again after the last, and breaks off as soon as the condition holds. Without
@@ -81,6 +87,7 @@ pub enum PlanStep {
         /// The condition, looked at in every step of the simulation.
         condition: Condition,
         /// The steps.
+        #[serde(deserialize_with = "nested")]
         steps: Vec<Self>,
     },
 }
@@ -158,11 +165,11 @@ pub enum Condition {
     /// So much time has passed since the step was come to, s.
     Elapsed(f64),
     /// The contrary.
-    Not(Box<Self>),
+    Not(#[serde(deserialize_with = "nested")] Box<Self>),
     /// All of them.
-    All(Vec<Self>),
+    All(#[serde(deserialize_with = "nested")] Vec<Self>),
     /// At least one of them.
-    Any(Vec<Self>),
+    Any(#[serde(deserialize_with = "nested")] Vec<Self>),
     /// Two others are near one another: "Anna is near the bin".
     Together {
         /// One of them.
@@ -192,5 +199,57 @@ impl Plan {
     pub fn then(mut self, action: Action) -> Self {
         self.steps.push(PlanStep::Act(action));
         self
+    }
+}
+
+/// How deep blocks and conditions may lie in one another in what is read.
+const DEEPEST: u32 = 32;
+
+thread_local! {
+    /// How deep what is being read on this thread lies.
+    static DEPTH: Cell<u32> = const { Cell::new(0) };
+}
+
+/// Reads what lies within a block or a condition. Plans come from networks and files too, and who nests one a million deep
+/// would end the process by its stack.
+fn nested<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<T, D::Error> {
+    let depth = DEPTH.get();
+    if depth == DEEPEST {
+        return Err(D::Error::custom(format!(
+            "blocks of a plan lie more than {DEEPEST} deep in one another"
+        )));
+    }
+    DEPTH.set(depth + 1);
+    let read = T::deserialize(from);
+    DEPTH.set(depth);
+    read
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wait within so many blocks.
+    fn deep(blocks: u32) -> Plan {
+        let wait = PlanStep::Wait { seconds: 1.0 };
+        let step = (0..blocks).fold(wait, |step, _| PlanStep::Repeat { times: 2, steps: vec![step] });
+        Plan { steps: vec![step] }
+    }
+
+    #[test]
+    fn plans_are_read_as_they_were_written_but_for_those_without_an_end() {
+        for blocks in [0, 1, 16, DEEPEST] {
+            let bytes = postcard::to_stdvec(&deep(blocks)).unwrap();
+            assert_eq!(postcard::from_bytes::<Plan>(&bytes).unwrap(), deep(blocks));
+            let text = serde_json::to_string(&deep(blocks)).unwrap();
+            assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), deep(blocks));
+        }
+        let bytes = postcard::to_stdvec(&deep(DEEPEST + 1)).unwrap();
+        assert!(postcard::from_bytes::<Plan>(&bytes).is_err());
+        // What would fill any stack is a few bytes a block: the tag of `Repeat`, its times, and the one step in it.
+        let repeat = &bytes[1..4];
+        let endless = [&bytes[..1], &repeat.repeat(1_000_000)].concat();
+        assert!(postcard::from_bytes::<Plan>(&endless).is_err());
+        assert_eq!(postcard::from_bytes::<Plan>(&postcard::to_stdvec(&deep(3)).unwrap()).unwrap(), deep(3));
     }
 }

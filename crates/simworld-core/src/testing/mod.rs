@@ -260,7 +260,7 @@ pub fn check_executor(
     executor.start(plan.clone(), scene, who).unwrap_or_else(|error| panic!("the plan was refused: {error}"));
     let last = (0..steps)
         .map(|_| executor.advance(scene, who, &mut actions).expect("the executor works"))
-        .find(|progress| *progress != Progress::Running);
+        .find(|progress| !progress.goes_on());
     assert_eq!(last, Some(Progress::Done), "the plan was not done after {steps} steps");
     assert_eq!(executor.advance(scene, who, &mut Vec::new()), Ok(Progress::Idle), "not idle after its plan");
 
@@ -273,7 +273,7 @@ pub fn check_executor(
     let refused = make().start(wait, scene, nobody).is_err() || {
         let mut executor = make();
         let _ = executor.start(Plan { steps: vec![PlanStep::Act(Action::Stop)] }, scene, nobody);
-        !matches!(executor.advance(scene, nobody, &mut actions), Ok(Progress::Running))
+        !executor.advance(scene, nobody, &mut actions).is_ok_and(|progress| progress.goes_on())
     };
     assert!(refused, "it acts for nobody");
 }

@@ -85,6 +85,18 @@ impl WaypointGraph {
         scratch: &mut RouteScratch,
         route: &mut Route,
     ) -> bool {
+        self.route_avoiding(from, to, &[], scratch, route)
+    }
+
+    /// The shortest [`route`](Self::route) that comes to none of these waypoints; beginning at one is no matter.
+    pub fn route_avoiding(
+        &self,
+        from: WaypointId,
+        to: WaypointId,
+        shut: &[WaypointId],
+        scratch: &mut RouteScratch,
+        route: &mut Route,
+    ) -> bool {
         route.waypoints.clear();
         route.length = 0.0;
         let count = self.waypoints.len();
@@ -107,7 +119,7 @@ impl WaypointGraph {
             }
             for edge in self.edges(WaypointId(best.waypoint)) {
                 let (next, distance) = (edge.to.index(), best.distance + edge.length);
-                if distance < scratch.distance(next) {
+                if distance < scratch.distance(next) && !shut.contains(&edge.to) {
                     scratch.reach(next, distance, best.waypoint);
                     let estimate = distance + estimate(next);
                     scratch.open.push(Candidate { estimate, distance, waypoint: edge.to.0 });
