@@ -96,7 +96,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
             println!("{seconds:6.0} s  ({:7.1}, {:7.1})  {speed:4.0} km/h", at.x, at.y);
             told += 20.0;
         }
-        if progress != Progress::Running || seconds > LONGEST {
+        if !progress.goes_on() || seconds > LONGEST {
             break (progress, seconds);
         }
     };

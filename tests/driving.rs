@@ -255,7 +255,7 @@ impl Streets {
             self.simulation.submit(Command::Actuate { who: driver.id, action });
         }
         match progress.expect("it is there") {
-            Progress::Running => {}
+            Progress::Running | Progress::Begun { .. } | Progress::Rerouted { .. } => {}
             Progress::Failed { reason } => {
                 self.drivers[index].left = 0;
                 let told = format!("{}: {reason}", self.tell(index));

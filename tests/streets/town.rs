@@ -120,7 +120,7 @@ impl Run {
     pub(crate) fn finish(&mut self, seconds: usize) -> Progress {
         for _ in 0..seconds * 10 {
             let progress = self.step();
-            if progress != Progress::Running {
+            if !progress.goes_on() {
                 return progress;
             }
         }

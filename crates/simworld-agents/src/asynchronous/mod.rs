@@ -6,7 +6,9 @@
 //! [`Episode::replay_step`].
 //!
 //! The world never waits for a mind: it looks whether something was handed in, and swaps a pointer for a new snapshot only if
-//! somebody wants one and nobody is reading the old pointer at that very moment. What happened while a mind thought it is told in
+//! somebody wants one and nobody is reading the old pointer at that very moment. What plans and acts for an agent within the world
+//! is waited for, as in lockstep: a planner or an executor that asks a model belongs into the mind ([`PlanningMind`](crate::mind::PlanningMind),
+//! [`ActingMind`](crate::mind::ActingMind)). What happened while a mind thought it is told in
 //! order before it thinks again ([`Mind::notice`]). One that fails or panics is dead, and its body goes on with the plan it has.
 //!
 //! A thought cannot be ended from outside, for nothing ends a thread but itself: one that never ends keeps its thread and its mind for as

@@ -148,7 +148,7 @@ impl TryFrom<&Intent> for CourierAction {
 
     fn try_from(intent: &Intent) -> Result<Self, CallError> {
         let Intent::Call { name, args } = intent else {
-            return Err(CallError { call: intent.to_string(), reason: "give a call, not words".to_owned() });
+            return Err(CallError { call: intent.to_string(), reason: "give a call".to_owned() });
         };
         let arguments = Arguments { intent, args };
         Ok(match name.as_str() {

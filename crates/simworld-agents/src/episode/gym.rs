@@ -61,17 +61,13 @@ impl<T: Task, O: Observer<Observation: Default>> GymEpisode<T, O> {
 /// An action of a stranger, or one that is too long, is refused before anything happens.
 fn check_actions(present: &[EntityId], actions: &BTreeMap<EntityId, Intent>) -> Result<(), EnvError> {
     for (who, intent) in actions {
-        let text = match intent {
-            Intent::Words(words) => words.clone(),
-            Intent::Call { .. } => intent.to_string(),
-        };
-        let checked = if present.contains(who) {
-            action_space().check(&SpaceValue::Text(text))
-        } else {
-            Err(SpaceError {
-                path: who.to_string(),
-                reason: "is no agent of this episode, or no more".to_owned(),
-            })
+        let refused = |reason: &str| Err(SpaceError { path: who.to_string(), reason: reason.to_owned() });
+        let within = |text: String| action_space().check(&SpaceValue::Text(text));
+        let checked = match intent {
+            _ if !present.contains(who) => refused("is no agent of this episode, or no more"),
+            Intent::Words(words) => within(words.clone()),
+            Intent::Call { .. } => within(intent.to_string()),
+            Intent::Plan(_) | Intent::Act(_) => refused("wants what is no text: give words or a call"),
         };
         checked.map_err(|source| EnvError::Action { who: *who, source })?;
     }

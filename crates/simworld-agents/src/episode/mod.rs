@@ -3,7 +3,7 @@
 //! A step runs in this order:
 //! 1. minds decide on the frozen world; their intents are submitted and recorded;
 //! 2. the simulation applies what was submitted;
-//! 3. intents that the task answers go to the task, all others to the agent's planner;
+//! 3. intents that the task answers go to the task, all others to the agent's planner; plans that are ready go to its executor, and actions to its body;
 //! 4. the task decides; its commands take effect, its plans go to executors;
 //! 5. executors act, one step of their plans each;
 //! 6. dynamics move the world, the clock advances, a digest is taken if one is due.
@@ -25,7 +25,9 @@ use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::record::Recording;
 use simworld_core::scene::Scene;
-use simworld_core::seam::{Executor, Outcome, Plan, Planner, Progress, Task, TaskContext, TaskOutput};
+use simworld_core::seam::{
+    Executor, Outcome, Plan, PlanError, Planner, Progress, Task, TaskContext, TaskOutput,
+};
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
 pub use snapshot::EpisodeSnapshot;
@@ -42,6 +44,13 @@ pub struct Agent<T: ?Sized> {
     pub planner: Box<dyn Planner>,
     /// What carries out its plans.
     pub executor: Box<dyn Executor>,
+}
+
+impl<T: ?Sized> Agent<T> {
+    /// The plan of an intent: its own, if it is one already.
+    fn planned(&mut self, intent: &Intent, scene: &dyn Scene) -> Result<Plan, PlanError> {
+        intent.ready().map_or_else(|| self.planner.plan(intent, scene, self.id), Ok)
+    }
 }
 
 /// A task being played by agents in a simulation.
@@ -241,10 +250,16 @@ impl<T: Task> Episode<T> {
         self.intents.clear();
         let calls = self.task.calls();
         for (who, intent) in self.simulation.world().intents().to_vec() {
-            if matches!(&intent, Intent::Call { name, .. } if calls.contains(&name.as_str())) {
-                self.intents.push((who, intent));
-            } else {
-                self.plan(who, &intent);
+            match intent {
+                Intent::Call { ref name, .. } if calls.contains(&name.as_str()) => {
+                    self.intents.push((who, intent));
+                }
+                Intent::Act(actions) if seat(&self.seats, who).is_some() => {
+                    for action in actions {
+                        actuate(&mut self.simulation, who, action);
+                    }
+                }
+                _ => self.plan(who, &intent),
             }
         }
     }
@@ -252,7 +267,7 @@ impl<T: Task> Episode<T> {
     fn plan(&mut self, who: EntityId, intent: &Intent) {
         let world = self.simulation.world();
         let reason = match seat(&self.seats, who).map(|seat| &mut self.agents[seat]) {
-            Some(agent) => match agent.planner.plan(intent, world, who) {
+            Some(agent) => match agent.planned(intent, world) {
                 Ok(plan) => agent.executor.start(plan, world, who).err().map(|error| error.to_string()),
                 Err(error) => Some(error.to_string()),
             },
@@ -327,20 +342,25 @@ impl<T: Task> Episode<T> {
             }
             let progress = agent.executor.advance(self.simulation.world(), agent.id, &mut self.actions)?;
             let who = agent.id;
-            for action in self.actions.drain(..) {
-                let kind = action.kind();
-                if let Err(error) = self.simulation.apply(&Command::Actuate { who, action }) {
-                    let reason = error.to_string();
-                    self.simulation.emit(EventKind::ActionFailed { who, action: kind, reason });
-                }
-            }
+            self.actions.drain(..).for_each(|action| actuate(&mut self.simulation, who, action));
             match progress {
+                Progress::Idle | Progress::Running => {}
+                Progress::Begun { step } => self.simulation.emit(EventKind::StepBegun { who, step }),
+                Progress::Rerouted { reason } => self.simulation.emit(EventKind::Rerouted { who, reason }),
                 Progress::Done => self.simulation.emit(EventKind::PlanDone { who }),
                 Progress::Failed { reason } => self.simulation.emit(EventKind::PlanFailed { who, reason }),
-                Progress::Idle | Progress::Running => {}
             }
         }
         Ok(())
+    }
+}
+
+/// Has a body do something; that it cannot is told.
+fn actuate(simulation: &mut Simulation, who: EntityId, action: Action) {
+    let kind = action.kind();
+    if let Err(error) = simulation.apply(&Command::Actuate { who, action }) {
+        let reason = error.to_string();
+        simulation.emit(EventKind::ActionFailed { who, action: kind, reason });
     }
 }
 

@@ -95,6 +95,8 @@ pub struct RuleExecutor {
     /// The ways there are; `None` goes straight.
     ways: Option<Arc<WaypointGraph>>,
     state: State,
+    /// Why it goes on otherwise than before, told in the step in which that is so.
+    rerouted: Option<String>,
 }
 
 /// Everything that a snapshot holds.
@@ -123,6 +125,8 @@ enum Stage {
     Acted,
     /// Waiting, with the number of steps left.
     Waiting(u64),
+    /// Beside whom it follows.
+    Beside,
 }
 
 impl RuleExecutor {
@@ -149,7 +153,7 @@ impl RuleExecutor {
     }
 
     fn made_of(ways: Option<Arc<WaypointGraph>>, config: ExecutorConfig) -> Self {
-        Self { config, ways, state: State::default() }
+        Self { config, ways, state: State::default(), rerouted: None }
     }
 
     /// The step of the plan under way; of blocks the innermost.
@@ -200,11 +204,56 @@ impl RuleExecutor {
         entered
     }
 
+    /// Does what a step asks for now.
+    fn take(
+        &mut self,
+        scene: &dyn Scene,
+        me: &EntityRef<'_>,
+        step: PlanStep,
+        out: &mut Vec<Action>,
+    ) -> Progress {
+        match step {
+            PlanStep::Navigate { to, within, speed } => match self.go(scene, me, to, within, speed, out) {
+                Arrival::Underway => Progress::Running,
+                Arrival::There => {
+                    self.tell_speed(0.0, out);
+                    self.next_step()
+                }
+                Arrival::Lost(reason) => self.fail(reason, out),
+            },
+            PlanStep::Follow { whom, gap, speed } => {
+                match self.go(scene, me, Goal::Entity(whom), gap, speed, out) {
+                    Arrival::Underway => Progress::Running,
+                    Arrival::There => {
+                        self.state.stage = Stage::Beside;
+                        self.tell_speed(0.0, out);
+                        Progress::Running
+                    }
+                    Arrival::Lost(reason) => self.fail(reason, out),
+                }
+            }
+            PlanStep::Face { to } => self.face(scene, me, to, out),
+            PlanStep::Point { at } => self.point(scene, me, at, out),
+            PlanStep::Act(action) => self.act(scene, me.id, action, out),
+            PlanStep::Wait { seconds } => self.wait(scene, seconds, out),
+            other => self.fail(format!("cannot carry out {other:?}"), out),
+        }
+    }
+
     /// Goes on to what comes next.
     fn next_step(&mut self) -> Progress {
         self.state.stage = Stage::Fresh;
         self.state.blocks.move_on();
         if self.is_idle() { Progress::Done } else { Progress::Running }
+    }
+
+    /// How far it is, with what is new about it.
+    fn told(&mut self, progress: Progress, begun: Option<PlanStep>) -> Progress {
+        match (progress, begun, self.rerouted.take()) {
+            (Progress::Running, Some(step), _) => Progress::Begun { step: Box::new(step) },
+            (Progress::Running, None, Some(reason)) => Progress::Rerouted { reason },
+            (progress, ..) => progress,
+        }
     }
 
     fn fail(&mut self, reason: String, out: &mut Vec<Action>) -> Progress {
@@ -250,32 +299,9 @@ impl Executor for RuleExecutor {
             Entered::Guarding | Entered::Waiting => return Ok(Progress::Running),
             Entered::End => return Ok(Progress::Done),
         };
-        Ok(match step {
-            PlanStep::Navigate { to, within, speed } => match self.go(scene, &me, to, within, speed, out) {
-                Arrival::Underway => Progress::Running,
-                Arrival::There => {
-                    self.tell_speed(0.0, out);
-                    self.next_step()
-                }
-                Arrival::Lost(reason) => self.fail(reason, out),
-            },
-            PlanStep::Follow { whom, gap, speed } => {
-                match self.go(scene, &me, Goal::Entity(whom), gap, speed, out) {
-                    Arrival::Underway => Progress::Running,
-                    Arrival::There => {
-                        self.state.stage = Stage::Fresh;
-                        self.tell_speed(0.0, out);
-                        Progress::Running
-                    }
-                    Arrival::Lost(reason) => self.fail(reason, out),
-                }
-            }
-            PlanStep::Face { to } => self.face(scene, &me, to, out),
-            PlanStep::Point { at } => self.point(scene, &me, at, out),
-            PlanStep::Act(action) => self.act(scene, who, action, out),
-            PlanStep::Wait { seconds } => self.wait(scene, seconds, out),
-            other => self.fail(format!("cannot carry out {other:?}"), out),
-        })
+        let begun = (self.state.stage == Stage::Fresh).then(|| step.clone());
+        let progress = self.take(scene, &me, step, out);
+        Ok(self.told(progress, begun))
     }
 
     fn cancel(&mut self, out: &mut Vec<Action>) {

@@ -113,6 +113,9 @@ pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
             format!("you lost hold of {thing}")
         }
         EventKind::Thrown { who: actor, item, .. } if *actor == who => format!("you threw {item}"),
+        EventKind::Rerouted { who: actor, reason } if *actor == who => {
+            format!("plan goes on otherwise: {reason}")
+        }
         EventKind::PlanDone { who: actor } if *actor == who => "plan done".to_owned(),
         EventKind::PlanFailed { who: actor, reason } if *actor == who => format!("plan failed: {reason}"),
         EventKind::IntentRefused { who: actor, reason } if *actor == who => format!("refused: {reason}"),

@@ -89,12 +89,15 @@ impl ModelPlanner {
 
 impl Planner for ModelPlanner {
     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
+        if let Some(plan) = intent.ready() {
+            return Ok(plan);
+        }
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
         let known = Known::look(scene, who, &self.view).ok_or(PlanError::Missing { id: who })?;
         let menu = Menu::new(ActionSet::of_body(me.kind), &known);
         let request = match intent {
             Intent::Words(words) => words.clone(),
-            call @ Intent::Call { .. } => call.to_string(),
+            call => call.to_string(),
         };
         let written = |prompt, values: &[(&str, &str)]| {
             self.prompts.render(prompt, values).map_err(|error| PlanError::Backend(error.to_string()))

@@ -52,6 +52,13 @@ pub enum ReasonError {
     Other(String),
 }
 
+impl ReasonError {
+    /// Whether what may be spent on the model is spent: then it is asked no more.
+    pub const fn is_out_of_budget(&self) -> bool {
+        matches!(self, Self::Model(ModelError::Budget { .. }))
+    }
+}
+
 /// The reasoning behind a mind, a planner or an executor: a model, or a rule.
 ///
 /// ```

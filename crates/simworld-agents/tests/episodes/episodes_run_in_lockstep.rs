@@ -35,7 +35,7 @@ fn count(events: &[simworld_core::event::Event], is: impl Fn(&EventKind) -> bool
 }
 
 #[test]
-fn an_impossible_action_is_told_with_its_reason_and_the_plan_fails() {
+fn an_action_that_changes_nothing_is_told_with_its_reason_and_the_plan_is_done() {
     let mind = Speaker { lines: vec![(2, words("stand up"))], fails_at: None };
     let mut episode = hunt(ConeHunt::default(), mind, Seed(3)).expect("the hunt begins");
     let (mut failed_action, mut failed_plan) = (None, None);

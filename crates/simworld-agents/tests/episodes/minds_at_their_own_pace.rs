@@ -25,7 +25,7 @@ use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
 use simworld_core::seed::{Seed, StreamRng};
 
-const FIRST: EntityId = EntityId::new(1, 0);
+pub(crate) const FIRST: EntityId = EntityId::new(1, 0);
 const SECOND: EntityId = EntityId::new(2, 0);
 
 fn fresh(seed: Seed) -> Episode<ConeHunt> {
@@ -36,11 +36,11 @@ fn fresh(seed: Seed) -> Episode<ConeHunt> {
     episode
 }
 
-fn fast() -> AsynchronousConfig {
+pub(crate) fn fast() -> AsynchronousConfig {
     AsynchronousConfig { pace: Pace::AsFastAsPossible, ..AsynchronousConfig::default() }
 }
 
-fn begin(
+pub(crate) fn begin(
     seed: u64,
     config: AsynchronousConfig,
     minds: Vec<(EntityId, FreeMind<ConeHunt>)>,
@@ -96,7 +96,7 @@ fn until_it_thinks(run: &mut AsynchronousEpisode<ConeHunt, ConeHunt>, is_gone: &
 }
 
 /// Replays a recording in lockstep, without minds, and compares every digest.
-fn replay(seed: u64, live: &Episode<ConeHunt>) {
+pub(crate) fn replay(seed: u64, live: &Episode<ConeHunt>) {
     let recording = live.recording();
     let mut again = fresh(Seed(seed));
     for _ in 0..live.simulation().world().clock().tick().0 {

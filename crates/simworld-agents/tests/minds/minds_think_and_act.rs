@@ -1,12 +1,16 @@
 //! Minds that think in turns: they hear, answer, act and stop; an episode replays without them.
 #![cfg(feature = "thought")]
 
+use std::sync::{Arc, Mutex};
+
 use crate::thought_common::{Asked, model, text};
 use simworld_agents::episode::{Agent, Episode, EpisodeError};
 use simworld_agents::executor::RuleExecutor;
 use simworld_agents::language::GrammarPlanner;
 use simworld_agents::mind::{Mind, MindError};
-use simworld_agents::model::{ChatRequest, ModelError};
+use simworld_agents::model::{
+    Budget, ChatReply, ChatRequest, Ledger, Metered, ModelError, Scripted, Tariff, Usage,
+};
 use simworld_agents::thought::{Character, Ending, ReactConfig, ReactMind};
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::EntityId;
@@ -20,7 +24,7 @@ use simworld_core::simulation::Simulation;
 
 /// Somebody sits on the far chair.
 #[derive(Default)]
-struct TakeTheFarChair {
+pub(crate) struct TakeTheFarChair {
     chair: Option<EntityId>,
 }
 
@@ -224,7 +228,8 @@ fn a_message_changes_no_schema_and_no_instruction() {
     assert_eq!(user.matches("</data>").count(), 1);
 }
 
-fn alone(mind: ReactMind<TakeTheFarChair>) -> Episode<TakeTheFarChair> {
+/// One who thinks, beside one who wants nothing.
+pub(crate) fn alone(mind: ReactMind<TakeTheFarChair>) -> Episode<TakeTheFarChair> {
     struct Idle;
     impl Mind<TakeTheFarChair> for Idle {
         fn decide(
@@ -285,6 +290,48 @@ fn turns_are_bounded_and_an_end_is_said() {
     assert_eq!((wanted.len(), mind.ending()), (0, Some(&Ending::Hopeless { why: "no legs".into() })));
     let wrong = ReactConfig { patience: f64::NAN, ..ReactConfig::default() };
     assert_eq!(mind.with_config(wrong).map(|_| ()).map_err(|error| error.field), Err("patience"));
+}
+
+/// A mind that can be looked at while an episode has it.
+struct Shared(Arc<Mutex<ReactMind<TakeTheFarChair>>>);
+
+impl Mind<TakeTheFarChair> for Shared {
+    fn decide(
+        &mut self,
+        task: &TakeTheFarChair,
+        scene: &dyn Scene,
+        who: EntityId,
+        out: &mut Vec<Intent>,
+    ) -> Result<(), MindError> {
+        self.0.lock().unwrap().decide(task, scene, who, out)
+    }
+
+    fn notice(&mut self, events: &[simworld_core::event::Event], who: EntityId) {
+        Mind::<TakeTheFarChair>::notice(&mut *self.0.lock().unwrap(), events, who);
+    }
+}
+
+#[test]
+fn whose_budget_is_spent_thinks_no_more_and_the_others_go_on() {
+    let ledger = Ledger::new(Budget { agent_tokens: Some(100_000), ..Budget::default() });
+    let waiting = |agent: &str, takes: u64| {
+        let mouth = Scripted::rule(move |_| {
+            let usage = Usage { prompt: takes, completion: 1 };
+            Ok(ChatReply { usage, ..ChatReply::of(turn("on", r#"{"act": "wait", "tenths": 5}"#)) })
+        });
+        let mouth = Metered::new(mouth, agent, Tariff::free(), ledger.clone());
+        Arc::new(Mutex::new(ReactMind::new("Wait.", Box::new(mouth))))
+    };
+    let (spender, saver) = (waiting("spender", 40_000), waiting("saver", 10));
+    let minds: Minds = [Box::new(Shared(Arc::clone(&spender))), Box::new(Shared(Arc::clone(&saver)))];
+    let mut episode = episode(minds);
+    run(&mut episode, 100);
+    assert_eq!(episode.trail().len(), 100, "the episode goes on");
+    let ending = spender.lock().unwrap().ending().cloned();
+    assert!(matches!(&ending, Some(Ending::OutOfBudget { why }) if why.contains("spender")), "{ending:?}");
+    let (spent, saved) = (ledger.of("spender"), ledger.of("saver"));
+    assert!((spent.answered, spent.stopped) == (3, 1), "asked once too often, and no more: {spent:?}");
+    assert!(saver.lock().unwrap().ending().is_none() && saved.answered > spent.answered + 5, "{saved:?}");
 }
 
 /// Minds may think in threads of their own.

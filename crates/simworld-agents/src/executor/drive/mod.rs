@@ -94,6 +94,9 @@ pub(super) struct Driving {
     is_held: bool,
     /// Roads that turned out to be blocked, by the first lane of their leg.
     closed: Vec<LaneId>,
+    /// Why it drives otherwise than before, until that is told.
+    #[serde(skip)]
+    news: Option<&'static str>,
 }
 
 /// The vehicle that somebody drives: itself, or what it sits in.
@@ -143,6 +146,7 @@ impl RuleExecutor {
         };
         let arrival = begun.and_then(|mut way| {
             let there = self.follow_lane(scene, vehicle, &own, &mut way, speed, out)?;
+            self.rerouted = way.news.take().map(str::to_owned);
             self.state.stage = Stage::Driving(way);
             Ok(there)
         });
@@ -171,7 +175,8 @@ impl RuleExecutor {
         }
         if way.locate(own.at) > ASTRAY {
             way.tries += 1;
-            way.renew(scene, vehicle, own, Wish { closed: way.closed.clone(), ..Wish::to(way.goal) })?;
+            let why = Some("it has come off its way");
+            way.renew(scene, vehicle, own, Wish { closed: way.closed.clone(), why, ..Wish::to(way.goal) })?;
         }
         way.mind_closures(scene, vehicle, own)?;
         way.mind_berth(scene, vehicle, own)?;

@@ -151,7 +151,7 @@ impl Driving {
             }
             return self.turning.is_some();
         }
-        let wish = Wish { closed, ..Wish::to(self.goal) };
+        let wish = Wish { closed, why: Some("something stands in the way"), ..Wish::to(self.goal) };
         self.renew(scene, vehicle, own, wish).is_ok()
     }
 

@@ -37,11 +37,13 @@ pub(super) struct Wish {
     pub(super) lanes: Lanes,
     /// The lane where one is, if one knows, and how far one stays in it, m.
     pub(super) on: Option<(LaneId, f64)>,
+    /// Why one drives otherwise than before, if one does.
+    pub(super) why: Option<&'static str>,
 }
 
 impl Wish {
     pub(super) fn to(goal: Point2) -> Self {
-        Self { goal, closed: Vec::new(), lanes: Lanes::All, on: None }
+        Self { goal, closed: Vec::new(), lanes: Lanes::All, on: None, why: None }
     }
 }
 
@@ -84,6 +86,7 @@ impl Driving {
             turning: None,
             is_held: false,
             closed: wish.closed,
+            news: wish.why,
         })
     }
 
@@ -130,7 +133,13 @@ impl Driving {
         let ahead = self.lines.iter().filter(|line| !line.is_passed);
         let mut into = ahead.map(|line| network.connections[line.turn.index()].to);
         if into.any(|lane| is_closed(scene, network, lane)) {
-            self.renew(scene, vehicle, own, Wish { closed: self.closed.clone(), ..Wish::to(self.goal) })?;
+            let why = Some("a street ahead is closed");
+            self.renew(
+                scene,
+                vehicle,
+                own,
+                Wish { closed: self.closed.clone(), why, ..Wish::to(self.goal) },
+            )?;
         }
         Ok(())
     }
@@ -152,7 +161,8 @@ impl Driving {
         if !looks || berth.aside <= 0.0 || berth.is_free(scene, network, own.ids, own.size()) {
             return Ok(());
         }
-        self.renew(scene, vehicle, own, Wish { closed: self.closed.clone(), ..Wish::to(self.goal) })
+        let why = Some("the place at the kerb is taken");
+        self.renew(scene, vehicle, own, Wish { closed: self.closed.clone(), why, ..Wish::to(self.goal) })
     }
 }
 

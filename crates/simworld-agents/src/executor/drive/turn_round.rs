@@ -105,7 +105,8 @@ impl Driving {
         if turning.spent > FAILED {
             if own.ahead.dot(&back) < -TURNED {
                 // There is no room; perhaps what was in the way is gone by now.
-                let wish = Wish { closed: self.closed.clone(), ..Wish::to(self.goal) };
+                let why = Some("there is no room to turn round");
+                let wish = Wish { closed: self.closed.clone(), why, ..Wish::to(self.goal) };
                 return self.renew(scene, vehicle, own, wish);
             }
             return turning.give_up().then_some(()).ok_or_else(|| CannotArrive::stuck(scene, own.at, None));
@@ -114,7 +115,9 @@ impl Driving {
             out.push(Action::Brake { level: 0.3 });
             let closed = self.closed.clone();
             let on = lane_at(network, own.at, Some(heading(&own.ahead)));
-            let wish = Wish { closed, on: on.map(|on| (on.lane, 2.0)), ..Wish::to(self.goal) };
+            let (on, why) =
+                (on.map(|on| (on.lane, 2.0)), Some("it has turned round, for the street is blocked"));
+            let wish = Wish { closed, on, why, ..Wish::to(self.goal) };
             return self.renew(scene, vehicle, own, wish).map(|()| self.best = 0.0);
         }
         turning.shift(network, own, around, dt);

@@ -185,6 +185,7 @@ impl Driving {
             closed: self.closed.clone(),
             on: Some((change.from, 0.0)),
             lanes: Lanes::Own,
+            why: Some("there is no gap to change lanes"),
             ..Wish::to(self.goal)
         };
         // Where there is none one waits on.
@@ -214,7 +215,8 @@ impl Driving {
             let to = network.connections[line.turn.index()].to;
             let mut closed = self.closed.clone();
             closed.extend(crate::lanes::beside(network, to).first());
-            let wish = Wish { closed, ..Wish::to(self.goal) };
+            let why = Some("there is no gap at the junction");
+            let wish = Wish { closed, why, ..Wish::to(self.goal) };
             self.renew(scene, vehicle, own, wish)?;
         }
         Ok(())

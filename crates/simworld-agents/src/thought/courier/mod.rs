@@ -55,6 +55,8 @@ struct State {
     faults: u32,
     /// What is decided and not done yet, and when it will be, s.
     decided: Option<(f64, Intent)>,
+    /// Why it thinks no more: what it may spend on its model is spent.
+    spent: Option<String>,
 }
 
 impl ModelCourier {
@@ -107,6 +109,11 @@ impl ModelCourier {
     pub fn with_prompts(mut self, prompts: Arc<Prompts>) -> Self {
         self.prompts = prompts;
         self
+    }
+
+    /// Why it thinks no more, once what it may spend on its model is spent. What it carries by then it keeps.
+    pub fn out_of_budget(&self) -> Option<&str> {
+        self.state.spent.as_deref()
     }
 
     /// What comes to mind of what happened before, a line each.
@@ -203,8 +210,13 @@ impl ModelCourier {
         self.state.due = now + (self.config.interval).max(self.config.pause * longer);
     }
 
-    /// An answer that cannot be used costs the turn, and the courier is told; a model that fails is borne for a while.
+    /// An answer that cannot be used costs the turn, and the courier is told; a model that fails is borne for a while. Who has nothing
+    /// left to spend thinks no more, and the others go on.
     fn bear(&mut self, who: EntityId, error: &ReasonError) -> Result<(), MindError> {
+        if error.is_out_of_budget() {
+            self.state.spent = Some(error.to_string());
+            return Ok(());
+        }
         let borne = match error {
             ReasonError::Answer { fault, .. } => {
                 self.hear(&format!("refused: {fault}"));
@@ -255,6 +267,9 @@ impl Mind<DeliveryTask> for ModelCourier {
                 return Ok(());
             }
             out.push(intent);
+        }
+        if self.state.spent.is_some() {
+            return Ok(());
         }
         let rested = self.state.rested;
         let woken = view.wakes(&mut self.state.seen, &mut self.state.due, || rested);

@@ -237,8 +237,13 @@ impl<T: ?Sized> ReactMind<T> {
         decision.map(|decision| (because, decision)).ok_or_else(unchecked)
     }
 
-    /// A turn without a usable answer: a rest, or the end of the mind's patience with its model.
+    /// A turn without a usable answer: a rest, or the end of the mind's patience with its model. Whose budget is spent thinks no more;
+    /// the others go on.
     fn bear(&mut self, error: &ReasonError, now: f64, who: EntityId) -> Result<(), MindError> {
+        if error.is_out_of_budget() {
+            self.state.ending = Some(Ending::OutOfBudget { why: error.to_string() });
+            return Ok(());
+        }
         let passing = match error {
             ReasonError::Answer { .. } => true,
             ReasonError::Model(error) => error.is_passing(),

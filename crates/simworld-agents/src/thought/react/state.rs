@@ -112,6 +112,11 @@ pub enum Ending {
     },
     /// It had all its turns.
     OutOfTurns,
+    /// What it may spend on its model is spent.
+    OutOfBudget {
+        /// How much was left, and how much it would have taken.
+        why: String,
+    },
 }
 
 /// Everything that a snapshot holds, beside memory and mood.

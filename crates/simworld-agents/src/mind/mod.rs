@@ -1,12 +1,21 @@
 //! Minds: what decides. A rule, a policy or a model; all speak in intents.
+//!
+//! What plans and acts for an agent is asked within the step of the world, and the world waits for it. Where that takes long, as
+//! with a model behind a server, it belongs into the mind, which may think in a thread of its own: [`PlanningMind`] and
+//! [`ActingMind`].
 
+mod acting;
+mod planning;
+
+pub use acting::ActingMind;
+pub use planning::PlanningMind;
 use simworld_core::event::Event;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
 use thiserror::Error;
 
-/// Why a mind could not decide; the episode ends with it.
+/// Why a mind could not decide: in lockstep the episode ends with it, at their own pace only this mind does.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("the mind of {who} failed: {reason}")]
 pub struct MindError {
