@@ -174,6 +174,11 @@ impl Ground {
         self.at(place).is_some()
     }
 
+    /// Whether nothing stands at a place.
+    pub(super) fn is_free(&self, place: Point2) -> bool {
+        self.at(place).is_some_and(|at| self.cells[at] != Cell::Solid)
+    }
+
     /// The cell of a place, or the nearest that is free if something stands there.
     fn free_at(&self, place: Point2) -> Option<usize> {
         let at = self.at(place)?;

@@ -1,5 +1,7 @@
 //! Navigation: from waypoint to waypoint to the goal.
 
+mod stuck;
+
 use std::cell::RefCell;
 
 use serde::{Deserialize, Serialize};
@@ -86,6 +88,8 @@ pub(super) struct Navigation {
     stuck: u32,
     jams: u32,
     evading: f64,
+    /// Waypoints that it did not get to.
+    shut: Vec<WaypointId>,
 }
 
 /// Where a goal is by now.
@@ -117,6 +121,7 @@ impl Navigation {
             stuck: 0,
             jams: 0,
             evading: 0.0,
+            shut: Vec::new(),
         }
     }
 
@@ -156,7 +161,7 @@ impl RuleExecutor {
         let mut way = match std::mem::take(&mut self.state.stage) {
             // Who walked on is followed on the roads as well.
             Stage::Navigating(way) if way.crossing_begun || (goal - way.goal).norm() <= FOLLOWED => way,
-            _ => Navigation::along(self.find_way(scene, me, goal), goal),
+            _ => Navigation::along(self.find_way(scene, me, goal, &[]), goal),
         };
         if let Some(last) = way.legs.last_mut() {
             last.point = goal;
@@ -281,36 +286,8 @@ impl RuleExecutor {
         Arrival::Underway
     }
 
-    /// Tries something else after standing for too long: first a step aside, then a way round what is here, then another way.
-    fn unstick(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, way: &mut Navigation) -> Option<Arrival> {
-        /// So many times as often as in one place it gives up in all.
-        const CIRCLES: u32 = 3;
-        let here = me.planar();
-        way.stuck += 1;
-        way.jams += 1;
-        way.idle = 0.0;
-        way.least = f64::INFINITY;
-        self.state.told_speed = None; // somebody may have told the body to stop
-        if way.stuck > self.config.attempts || way.jams > CIRCLES * self.config.attempts {
-            return Some(Arrival::Lost(format!("stuck at ({:.1}, {:.1})", here.x, here.y)));
-        }
-        way.evading = EVASION;
-        if way.crossing_begun {
-            return None;
-        }
-        match way.stuck % 3 {
-            2 if way.lead_round(scene, me) => way.evading = 0.0,
-            0 => {
-                let (goal, stuck, jams) = (way.goal, way.stuck, way.jams);
-                *way = Navigation { stuck, jams, ..Navigation::along(self.find_way(scene, me, goal), goal) };
-            }
-            _ => {}
-        }
-        None
-    }
-
-    /// The places to pass from where one is to the goal, the goal last.
-    fn find_way(&self, scene: &dyn Scene, me: &EntityRef<'_>, goal: Point2) -> Vec<Leg> {
+    /// The places to pass from where one is to the goal, the goal last; by none of some waypoints, if it can be done without.
+    fn find_way(&self, scene: &dyn Scene, me: &EntityRef<'_>, goal: Point2, shut: &[WaypointId]) -> Vec<Leg> {
         let here = me.planar();
         let Some(ways) = &self.ways else { return over_ground(scene, me, here, goal) };
         let (Some(from), Some(to)) = (ways.nearest(here), ways.nearest(goal)) else {
@@ -332,7 +309,8 @@ impl RuleExecutor {
         let back = walkway_from(scene, me, ways, goal, to);
         let ends = [&out, &back].map(|way| way.as_ref().map(|(waypoint, _)| *waypoint));
         let mut legs: Vec<Leg> = out.into_iter().flat_map(|(_, points)| points).map(Leg::open).collect();
-        walk_along(ways, ends[0].unwrap_or(from), ends[1].unwrap_or(to), |route| {
+        let between = [ends[0].unwrap_or(from), ends[1].unwrap_or(to)];
+        walk_along(ways, between, shut, |route| {
             let from = ends[0].map_or(here, |waypoint| ways.waypoint(waypoint).position);
             let to = ends[1].map_or(goal, |waypoint| ways.waypoint(waypoint).position);
             let mut before: Option<WaypointId> = None;
@@ -356,36 +334,21 @@ impl RuleExecutor {
     }
 }
 
-impl Navigation {
-    /// Puts a way over the ground, round what stands there now, before the next place on a walkway; false if there is none.
-    fn lead_round(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) -> bool {
-        let here = me.planar();
-        let on_walkway = |leg: &Leg| leg.footing == Footing::Walkway;
-        let next = self.legs.iter().skip(self.next).position(on_walkway).map(|ahead| self.next + ahead);
-        let next = next.unwrap_or(self.legs.len() - 1);
-        if self.legs[next].crossing.is_some() {
-            return false;
-        }
-        let place = self.legs[next].point;
-        let found = Ground::between(scene, me, (here, place), MARGINS[0])
-            .and_then(|ground| ground.way(here, &[place]));
-        let Some((_, mut points)) = found else { return false };
-        points.pop();
-        self.legs.splice(self.next..next, points.into_iter().map(Leg::open));
-        true
-    }
-}
-
 thread_local! {
     /// The memory of searches. It is as large as the network, so that one for each agent would not fit into the memory of a
     /// machine with a city of ten thousand; nothing of a search is left for the next.
     static SEARCH: RefCell<(RouteScratch, Route)> = RefCell::default();
 }
 
-/// Hands over the waypoints of the shortest route, if there is one.
-fn walk_along(ways: &WaypointGraph, from: WaypointId, to: WaypointId, walk: impl FnOnce(&[WaypointId])) {
+/// Hands over the waypoints of the shortest route, if there is one; of one without those that are shut, if there is any.
+fn walk_along(
+    ways: &WaypointGraph,
+    [from, to]: [WaypointId; 2],
+    shut: &[WaypointId],
+    walk: impl FnOnce(&[WaypointId]),
+) {
     SEARCH.with_borrow_mut(|(scratch, route)| {
-        if ways.route(from, to, scratch, route) {
+        if ways.route_avoiding(from, to, shut, scratch, route) || ways.route(from, to, scratch, route) {
             walk(&route.waypoints);
         }
     });

@@ -62,7 +62,7 @@ impl Walk {
         for _ in 0..most {
             let progress = self.step();
             look(self);
-            if progress != Progress::Running {
+            if !progress.goes_on() {
                 return progress;
             }
         }
