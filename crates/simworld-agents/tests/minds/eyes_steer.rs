@@ -1,9 +1,11 @@
 //! Bodies steered by what a camera shows: a camera that paints posts, and a model that finds the red ones in the pixels.
 #![cfg(feature = "thought")]
 
+mod field;
+
 use std::sync::Arc;
 
-use crate::car_common::Bicycle;
+use self::field::{BLUE_POST, DOG, DRIVER, PERSON, POST, RADIUS, RED_POST, VEHICLE, bodies, field, to_red};
 use crate::thought_common::{Asked, answering, model, text};
 use simworld_agents::model::{ChatRequest, ModelError, NoModel, Part, Recorded, Tape};
 use simworld_agents::observer::Frame;
@@ -11,23 +13,16 @@ use simworld_agents::thought::{VisualConfig, VisualExecutor};
 use simworld_core::action::Action;
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::command::Command;
-use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing, yaw_of};
+use simworld_core::geometry::{Pose, Vector3, pose_facing, yaw_of};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
-use simworld_core::kinematic::{KinematicBody, KinematicDynamics};
 use simworld_core::ops::{atan2, hypot};
-use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+use simworld_core::scene::{Attachment, Role, Scene};
 use simworld_core::seam::{
-    Condition, Embodiment, Executor, ExecutorError, Goal, ObserveError, Observer, Plan, PlanStep, Progress,
-    Which,
+    Condition, Executor, ExecutorError, Goal, ObserveError, Observer, Plan, PlanStep, Progress, Which,
 };
 use simworld_core::simulation::Simulation;
 use simworld_core::testing::check_executor;
-
-/// Radius of every post, m.
-const RADIUS: f64 = 0.3;
-const RED: [f32; 3] = [0.6, 0.02, 0.02];
-const BLUE: [f32; 3] = [0.02, 0.05, 0.6];
 
 /// Paints what is coloured as upright bars, the farthest first.
 struct Painter;
@@ -98,8 +93,9 @@ fn seen(request: &ChatRequest, is_it: fn(&[u8]) -> bool) -> Option<(f64, f64)> {
     let columns: Vec<usize> = (0..width).filter(is_column).collect();
     let (first, last) = (columns.first()?, columns.last()?);
     let middle = (first + last + 1) as f64 / 2.0;
-    let bearing = -atan2(middle - width as f64 / 2.0, optics().fx);
-    Some((bearing, 2.0 * RADIUS * optics().fx / (last + 1 - first) as f64))
+    let across = (middle - width as f64 / 2.0) / optics().fx;
+    let depth = 2.0 * RADIUS * optics().fx / (last + 1 - first) as f64;
+    Some((-atan2(across, 1.0), depth * hypot(1.0, across)))
 }
 
 fn red(pixel: &[u8]) -> bool {
@@ -132,59 +128,41 @@ fn walker(_: usize, request: &ChatRequest) -> Result<String, ModelError> {
     }
 }
 
-/// Steers towards what is red and brakes before it.
+/// The number that the request says behind some words, the last time that they are there.
+fn told(request: &ChatRequest, words: &str) -> Option<f64> {
+    text(request, 1).rsplit_once(words)?.1.split(' ').next()?.parse().ok()
+}
+
+/// Steers towards what is red, slowly where that is aside or near, and brakes before it.
 fn driver(_: usize, request: &ChatRequest) -> Result<String, ModelError> {
+    let within = told(request, "come within ").expect("it is told how near it has to come");
+    // Its movements last half a second.
+    let speed = 2.0 * told(request, "drove ").unwrap_or(0.0);
+    let drive = |wheels: f64, wish: f64| {
+        let (pedal, wheels) = (if speed < wish { 30 } else { 0 }, wheels.clamp(-35.0, 35.0).round() as i32);
+        deed(&format!(r#"{{"act": "drive", "percent": {pedal}, "degrees": {wheels}, "tenths": 5}}"#))
+    };
     match seen(request, red) {
-        None => deed(r#"{"act": "drive", "percent": 30, "degrees": 35, "tenths": 5}"#),
-        Some((_, distance)) if distance < 4.5 => {
+        None => drive(35.0, 1.5),
+        Some((_, distance)) if distance < within - 1.0 => {
             let stands = text(request, 1).contains("now at 0.0 m/s");
             deed(if stands { r#"{"act": "done"}"# } else { r#"{"act": "brake", "tenths": 20}"# })
         }
         Some((bearing, distance)) => {
-            let pedal = if distance > 12.0 { 30 } else { 5 };
-            let wheels = bearing.to_degrees().clamp(-35.0, 35.0);
-            deed(&format!(r#"{{"act": "drive", "percent": {pedal}, "degrees": {wheels:.0}, "tenths": 5}}"#))
+            let is_free = bearing.abs() < 0.2 && distance > within + 4.0;
+            drive(0.6 * bearing.to_degrees(), if is_free { 3.0 } else { 1.5 })
         }
     }
 }
 
-/// Which body is steered.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Body {
-    Person,
-    Dog,
-    Car,
+fn schema(request: &ChatRequest) -> String {
+    request.schema.as_ref().expect("a schema is sent").json.to_string()
 }
 
-/// Where the red post stands in the field.
-const POST: (f64, f64) = (-14.0, 9.0);
-
-/// A field with a red post (#0) and a blue one (#1), and a body (#2) that looks away from both.
-fn field(body: Body) -> (Simulation, EntityId) {
-    let mut world = World::new();
-    for ((x, y), color) in [(POST, RED), ((12.0, -6.0), BLUE)] {
-        let pose = pose_facing(Point3::new(x, y, 0.0), 0.0);
-        let post = EntityDesc::new(EntityKind::Sign, pose, Shape::Cylinder { radius: RADIUS, height: 2.5 });
-        world.spawn(post.colored(color)).expect("there is room");
-    }
-    let pose = pose_facing(Point3::origin(), 0.5);
-    let (kind, shape) = match body {
-        Body::Person => (EntityKind::Person, Shape::Capsule { radius: 0.25, height: 1.8 }),
-        Body::Dog => (EntityKind::Dog, Shape::cuboid(0.8, 0.3, 0.6)),
-        Body::Car => (EntityKind::Car, Shape::cuboid(4.5, 1.8, 1.5)),
-    };
-    let me = world.spawn(EntityDesc::new(kind, pose, shape)).expect("there is room");
-    let mut bodies = KinematicDynamics::new();
-    let made: Box<dyn Embodiment> =
-        if body == Body::Car { Box::new(Bicycle::at(pose)) } else { Box::new(KinematicBody::walker(pose)) };
-    bodies.insert(me, made);
-    let mut simulation = Simulation::new(world);
-    simulation.add_dynamics("bodies", Box::new(bodies));
-    (simulation, me)
+/// Drives where it is offered pedals, and walks where it is not.
+fn pilot(index: usize, request: &ChatRequest) -> Result<String, ModelError> {
+    if schema(request).contains("\"drive\"") { driver(index, request) } else { walker(index, request) }
 }
-
-const RED_POST: EntityId = EntityId::new(0, 0);
-const BLUE_POST: EntityId = EntityId::new(1, 0);
 
 fn step(
     simulation: &mut Simulation,
@@ -212,7 +190,7 @@ fn run(
     for _ in 0..steps {
         let progress = step(simulation, executor, me).expect("the executor works");
         way.push(*simulation.world().entity(me).expect("it is there").pose);
-        if progress != Progress::Running {
+        if !progress.goes_on() {
             return (progress, way);
         }
     }
@@ -229,36 +207,78 @@ fn eyes(rule: fn(usize, &ChatRequest) -> Result<String, ModelError>) -> (VisualE
     (VisualExecutor::new(model, Painter), asked)
 }
 
-fn to_red(within: f64) -> Plan {
-    Plan::navigate(Goal::Entity(RED_POST), within)
-}
-
 #[test]
 fn every_body_comes_to_the_red_post_by_sight() {
-    for (body, rule, within) in
-        [(Body::Person, walker as fn(_, &_) -> _, 1.0), (Body::Dog, walker, 1.0), (Body::Car, driver, 5.0)]
-    {
+    for body in bodies() {
         let (mut simulation, me) = field(body);
-        let (mut executor, asked) = eyes(rule);
-        executor.start(to_red(within), simulation.world(), me).expect("the plan is taken up");
+        let (mut executor, asked) = eyes(pilot);
+        executor.start(body.plan(), simulation.world(), me).expect("the plan is taken up");
         let (progress, _) = run(&mut simulation, &mut executor, me, 900);
         assert_eq!(progress, Progress::Done, "{body:?} after {:?}", executor.deeds().collect::<Vec<_>>());
-        let left = distance(&simulation, me, RED_POST) - RADIUS;
-        assert!(left <= within, "{body:?} is {left} m away");
-        let request = asked.last();
-        assert!(text(&request, 1).contains("the red sign"), "{}", text(&request, 1));
-        let schema = request.schema.expect("a schema is sent").json.to_string();
-        assert_eq!(schema.contains("\"drive\""), body == Body::Car);
-        assert_eq!(schema.contains("\"turn\""), body != Body::Car);
-        run(&mut simulation, &mut executor, me, 30);
-        let speed = simulation.world().entity(me).expect("it is there").twist.ground_speed();
+        let drives = body.wheels().is_some();
+        let moved = if drives && body.on.is_some() { VEHICLE } else { me };
+        let (left, within) = (distance(&simulation, moved, RED_POST) - RADIUS, body.within());
+        assert!(left <= within, "{body:?} is {left} m away, and not {within} m");
+        assert!(text(&asked.last(), 1).contains("the red sign"), "{}", text(&asked.last(), 1));
+        let offered = |act: &str| schema(&asked.last()).contains(&format!("\"{act}\""));
+        assert_eq!((offered("drive"), offered("turn")), (drives, !drives), "{body:?}");
+        let on_foot = !drives && body.on.is_none();
+        assert_eq!((offered("step"), offered("look")), (on_foot, !body.kind.is_vehicle()), "{body:?}");
+        for _ in 0..10 {
+            assert_eq!(step(&mut simulation, &mut executor, me), Ok(Progress::Idle));
+        }
+        let entity = simulation.world().entity(me).expect("it is there");
+        let speed = entity.twist.ground_speed();
         assert!(speed < 0.05, "{body:?} stands when it is done, and does not go on at {speed} m/s");
+        let sits_in = entity.attachment.map(|bond| bond.parent);
+        let has = sits_in.or_else(|| simulation.world().attached(me, Role::Ridden));
+        assert_eq!(has, body.on.map(|_| VEHICLE), "{body:?} is still on what it came with");
     }
 }
 
 #[test]
+fn who_drives_there_by_sight_gets_out_and_walks_the_rest() {
+    let (mut simulation, me) = field(DRIVER);
+    let (mut executor, asked) = eyes(pilot);
+    let mut plan = DRIVER.plan();
+    plan.steps.push(PlanStep::Act(Action::ExitCar));
+    plan.steps.extend(to_red(1.0).steps);
+    executor.start(plan, simulation.world(), me).expect("the plan is taken up");
+    let (progress, _) = run(&mut simulation, &mut executor, me, 900);
+    assert_eq!(progress, Progress::Done, "{:?}", executor.deeds().collect::<Vec<_>>());
+    let left = [VEHICLE, me].map(|id| distance(&simulation, id, RED_POST) - RADIUS);
+    assert!(left[0] <= DRIVER.within() && left[1] <= 1.0, "{left:?} m");
+    let pedals: Vec<bool> = asked.all().iter().map(|request| schema(request).contains("\"drive\"")).collect();
+    assert!(pedals[0] && pedals.windows(2).filter(|pair| pair[0] != pair[1]).count() == 1, "{pedals:?}");
+}
+
+#[test]
+fn who_is_interrupted_at_the_wheel_stops_the_car_and_who_only_sits_is_told_to_get_up() {
+    let (mut simulation, me) = field(DRIVER);
+    let (mut executor, _) = eyes(pilot);
+    executor.start(DRIVER.plan(), simulation.world(), me).expect("the plan is taken up");
+    let speed = |simulation: &Simulation| simulation.world().entity(VEHICLE).unwrap().twist.ground_speed();
+    assert_eq!(run(&mut simulation, &mut executor, me, 60).0, Progress::Running);
+    assert!(speed(&simulation) > 0.5, "{} m/s", speed(&simulation));
+    let mut rest = Vec::new();
+    executor.cancel(&mut rest);
+    for action in rest {
+        simulation.submit(Command::Actuate { who: me, action });
+    }
+    (0..20).for_each(|_| simulation.step().expect("bodies move"));
+    assert_eq!(speed(&simulation), 0.0);
+
+    let (mut simulation, me) = field(PERSON);
+    let bond = Attachment { parent: BLUE_POST, role: Role::Seated, parent_from_body: Pose::identity() };
+    simulation.apply(&Command::Attach { child: me, bond: Some(bond) }).expect("it sits");
+    executor.start(to_red(1.0), simulation.world(), me).expect("the plan is taken up");
+    let (progress, _) = run(&mut simulation, &mut executor, me, 10);
+    assert!(matches!(&progress, Progress::Failed { reason } if reason.contains("get up")), "{progress:?}");
+}
+
+#[test]
 fn without_the_pictures_it_is_not_found_and_that_is_said() {
-    let (mut simulation, me) = field(Body::Person);
+    let (mut simulation, me) = field(PERSON);
     let (mouth, asked) = model(walker);
     let config = VisualConfig { most_movements: 12, ..VisualConfig::default() };
     let mut executor = VisualExecutor::new(mouth, Blind).with_config(config).expect("the settings are sound");
@@ -272,7 +292,7 @@ fn without_the_pictures_it_is_not_found_and_that_is_said() {
 
 #[test]
 fn it_is_shown_the_last_pictures_and_told_what_it_did() {
-    let (mut simulation, me) = field(Body::Person);
+    let (mut simulation, me) = field(PERSON);
     let (mut executor, asked) = eyes(walker);
     executor.start(to_red(1.0), simulation.world(), me).expect("the plan is taken up");
     run(&mut simulation, &mut executor, me, 900);
@@ -288,7 +308,7 @@ fn it_is_shown_the_last_pictures_and_told_what_it_did() {
 
 #[test]
 fn rubbish_fails_the_plan_and_silence_ends_the_run() {
-    let (mut simulation, me) = field(Body::Dog);
+    let (mut simulation, me) = field(DOG);
     let (mouth, asked) = model(|_, _| deed(r#"{"act": "sit_down", "seat": 1}"#));
     let mut executor = VisualExecutor::new(mouth, Painter);
     executor.start(to_red(1.0), simulation.world(), me).expect("the plan is taken up");
@@ -306,7 +326,7 @@ fn rubbish_fails_the_plan_and_silence_ends_the_run() {
 
 #[test]
 fn to_say_done_is_not_to_be_there() {
-    let (mut simulation, me) = field(Body::Person);
+    let (mut simulation, me) = field(PERSON);
     let (mouth, asked) = model(|_, _| deed(r#"{"act": "done"}"#));
     let mut executor = VisualExecutor::new(mouth, Painter);
     executor.start(to_red(1.0), simulation.world(), me).expect("the plan is taken up");
@@ -341,7 +361,7 @@ fn errand() -> Plan {
 
 #[test]
 fn blocks_and_guards_hold_for_the_eyes_too() {
-    let (mut simulation, me) = field(Body::Person);
+    let (mut simulation, me) = field(PERSON);
     let (mut executor, asked) = eyes(|index, request| {
         let aim = text(request, 1);
         let facing = aim.contains("in the middle")
@@ -366,7 +386,7 @@ fn a_saved_run_goes_on_and_a_recorded_one_needs_no_model() {
     let folder = tempfile::tempdir().expect("there is a folder");
     let file = folder.path().join("answers.jsonl");
     let (_, whole) = {
-        let (mut simulation, me) = field(Body::Person);
+        let (mut simulation, me) = field(PERSON);
         let tape = Arc::new(Tape::record(&file).expect("the file is new"));
         let recorded = Recorded::new(model(walker).0, "me", tape);
         let mut executor = VisualExecutor::new(Box::new(recorded), Painter);
@@ -374,7 +394,7 @@ fn a_saved_run_goes_on_and_a_recorded_one_needs_no_model() {
         run(&mut simulation, &mut executor, me, 900)
     };
     // Without the model: the same way to the bit, and the same hash of the executor on it.
-    let (mut simulation, me) = field(Body::Person);
+    let (mut simulation, me) = field(PERSON);
     let tape = Arc::new(Tape::replay(&file).expect("the file is read"));
     let mut executor = VisualExecutor::new(Box::new(Recorded::new(NoModel, "me", tape)), Painter);
     executor.start(to_red(1.0), simulation.world(), me).expect("the plan is taken up");
@@ -395,7 +415,7 @@ fn a_saved_run_goes_on_and_a_recorded_one_needs_no_model() {
 
 #[test]
 fn it_is_an_executor_like_any_other() {
-    let (simulation, me) = field(Body::Person);
+    let (simulation, me) = field(PERSON);
     let wait = Plan { steps: vec![PlanStep::Wait { seconds: 0.5 }] };
     check_executor(|| Box::new(eyes(walker).0), simulation.world(), me, &wait, 20);
     let (mut executor, _) = eyes(walker);

@@ -3,6 +3,7 @@
 mod aim;
 mod config;
 mod movement;
+mod steered;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -11,11 +12,12 @@ use aim::Aim;
 pub use config::{VisualConfig, VisualConfigError};
 use movement::{Deed, Moving};
 use serde::{Deserialize, Serialize};
-use simworld_core::action::{Action, ActionSet};
+use simworld_core::action::Action;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::{Executor, ExecutorError, Observer, Plan, Progress};
+use steered::{able, steered};
 
 use super::prompts::{Prompt, Prompts, one_line};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
@@ -27,11 +29,13 @@ use crate::observer::Frame;
 /// Carries out plans by a camera and a vision model, one small movement after another.
 ///
 /// Going somewhere, following and facing are steered by the pictures; the model is told what it looks for, never where that is.
+/// Whoever sits in a vehicle drives it: what it is told are pedals and wheel, what it sees is still what is before its own eyes.
 /// Everything else of a plan (sitting down, picking up, waiting) is done as the rules do it. That a goal is reached is checked
-/// against the world. The model blocks the step in which it is asked; under a recording of its answers a run is deterministic.
+/// against the world. The model blocks the step in which it is asked; under a recording of its answers a run is deterministic. At its
+/// own pace it goes into an [`ActingMind`](crate::mind::ActingMind), and blocks nobody.
 pub struct VisualExecutor {
     reasoner: Box<dyn Reasoner>,
-    camera: Box<dyn Observer<Observation = Frame>>,
+    camera: Box<dyn Observer<Observation = Frame> + Send>,
     prompts: Arc<Prompts>,
     config: VisualConfig,
     /// What does single actions and waits.
@@ -67,14 +71,17 @@ enum Stand {
 
 impl VisualExecutor {
     /// Sees by this camera and asks this model.
-    pub fn new(model: Box<dyn ChatModel>, camera: impl Observer<Observation = Frame> + 'static) -> Self {
+    pub fn new(
+        model: Box<dyn ChatModel>,
+        camera: impl Observer<Observation = Frame> + Send + 'static,
+    ) -> Self {
         Self::with_reasoner(Box::new(ModelReasoner::new(model)), camera)
     }
 
     /// Sees by this camera and asks any reasoner.
     pub fn with_reasoner(
         reasoner: Box<dyn Reasoner>,
-        camera: impl Observer<Observation = Frame> + 'static,
+        camera: impl Observer<Observation = Frame> + Send + 'static,
     ) -> Self {
         Self {
             reasoner,
@@ -129,7 +136,7 @@ impl VisualExecutor {
             self.state.in_hand = true;
         }
         Ok(match self.hands.advance(scene, who, out)? {
-            Progress::Running => Stand::Underway,
+            Progress::Running | Progress::Begun { .. } | Progress::Rerouted { .. } => Stand::Underway,
             Progress::Failed { reason } => Stand::Lost(reason),
             Progress::Done | Progress::Idle => Stand::Done,
         })
@@ -143,13 +150,16 @@ impl VisualExecutor {
         aim: Aim,
         out: &mut Vec<Action>,
     ) -> Result<Stand, ExecutorError> {
-        if let Some(bond) = me.attachment {
-            return Ok(Stand::Lost(format!("cannot move off {}: get up or out first", bond.parent)));
-        }
-        let Some(told) = aim.describe(scene, me) else { return Ok(Stand::Lost(format!("{aim:?} is gone"))) };
+        let body = match steered(scene, me) {
+            Ok(body) => body,
+            Err(reason) => return Ok(Stand::Lost(reason)),
+        };
+        let Some(told) = aim.describe(scene, &body) else {
+            return Ok(Stand::Lost(format!("{aim:?} is gone")));
+        };
         let speed = aim.speed().unwrap_or(self.config.speed);
         if let Some(moving) = &mut self.state.moving {
-            let Some(outcome) = moving.advance(me, scene.clock().dt(), speed, out) else {
+            let Some(outcome) = moving.advance(&body, scene.clock().dt(), speed, out) else {
                 return Ok(Stand::Underway);
             };
             self.state.moving = None;
@@ -159,41 +169,43 @@ impl VisualExecutor {
             return Ok(Stand::Lost(format!("{told} was not reached in {} movements", self.state.movements)));
         }
         self.state.movements += 1;
-        let deed = match self.ask(scene, me, aim, &told) {
+        let deed = match self.ask(scene, (me, &body), aim, &told) {
             Ok(deed) => deed,
             Err(error) => return self.bear(&error),
         };
         self.state.faults = 0;
-        match deed {
+        Ok(match deed {
             Deed::Move(movement) => {
-                let mut moving = Moving::new(movement, scene, me, speed);
-                if let Some(outcome) = moving.advance(me, scene.clock().dt(), speed, out) {
+                let mut moving = Moving::new(movement, scene, &body, speed);
+                if let Some(outcome) = moving.advance(&body, scene.clock().dt(), speed, out) {
                     self.note(outcome);
                 } else {
                     self.state.moving = Some(moving);
                 }
-                Ok(Stand::Underway)
+                Stand::Underway
             }
-            Deed::Done if aim.is_reached(scene, me) => Ok(Stand::Done),
-            Deed::Done => {
-                self.note("you said done, and it is not reached".to_owned());
-                self.state.claims += 1;
-                let over = self.state.claims > self.config.claims;
-                Ok(if over {
-                    Stand::Lost(format!("{told} is not where it was taken to be"))
-                } else {
-                    Stand::Underway
-                })
-            }
-            Deed::GiveUp(why) => Ok(Stand::Lost(format!("gave up on {told}: {}", one_line(&why)))),
+            Deed::Done if aim.is_reached(scene, &body) => Stand::Done,
+            Deed::Done => self.doubt(&told),
+            Deed::GiveUp(why) => Stand::Lost(format!("gave up on {told}: {}", one_line(&why))),
+        })
+    }
+
+    /// It said that it is there, and the world says that it is not.
+    fn doubt(&mut self, told: &str) -> Stand {
+        self.note("you said done, and it is not reached".to_owned());
+        self.state.claims += 1;
+        if self.state.claims > self.config.claims {
+            Stand::Lost(format!("{told} is not where it was taken to be"))
+        } else {
+            Stand::Underway
         }
     }
 
-    /// Shows the model what the camera sees, and reads one deed.
+    /// Shows the model what the camera of whoever is steered sees, and reads one deed of the body that moves.
     fn ask(
         &mut self,
         scene: &dyn Scene,
-        me: &EntityRef<'_>,
+        (me, body): (&EntityRef<'_>, &EntityRef<'_>),
         aim: Aim,
         told: &str,
     ) -> Result<Deed, ReasonError> {
@@ -204,8 +216,8 @@ impl VisualExecutor {
         while self.state.frames.len() > self.config.frames {
             self.state.frames.pop_front();
         }
-        let (branches, calls) = movement::offered(ActionSet::of_body(me.kind), aim);
-        let system = self.prompts.render(Prompt::Eyes, &[("body", me.kind.as_str()), ("calls", &calls)])?;
+        let (branches, calls) = movement::offered(able(scene, me, body), aim);
+        let system = self.prompts.render(Prompt::Eyes, &[("body", body.kind.as_str()), ("calls", &calls)])?;
         let left = self.config.most_movements - self.state.movements;
         let deeds: Vec<&str> = self.deeds().collect();
         let user = self.prompts.render(
@@ -227,7 +239,7 @@ impl VisualExecutor {
             .ok_or_else(|| ReasonError::Other("the deed cannot be read".to_owned()))
     }
 
-    /// An answer that cannot be used: another try in the next step, or the end of the plan with a reason. A model that will not
+    /// An answer that cannot be used: another try in the next step, or the end of the plan with a reason, as when the budget is spent. A model that will not
     /// answer at all ends the episode, since a replay could not know that.
     fn bear(&mut self, error: &ReasonError) -> Result<Stand, ExecutorError> {
         let passing = match error {
@@ -235,6 +247,9 @@ impl VisualExecutor {
             ReasonError::Model(error) => error.is_passing(),
             _ => false,
         };
+        if error.is_out_of_budget() {
+            return Ok(Stand::Lost(error.to_string()));
+        }
         if !passing {
             return Err(ExecutorError::Backend(error.to_string()));
         }
@@ -281,6 +296,9 @@ impl Executor for VisualExecutor {
             Entered::Guarding | Entered::Waiting => return Ok(Progress::Running),
             Entered::End => return Ok(Progress::Done),
         };
+        let is_new = self.state.aim.is_none() && !self.state.in_hand;
+        let begun = is_new.then(|| Box::new(step.clone()));
+        let goes_on = begun.map_or(Progress::Running, |step| Progress::Begun { step });
         let aim = self.state.aim.or_else(|| Aim::of(&step));
         let stand = match aim {
             Some(aim) => {
@@ -290,7 +308,7 @@ impl Executor for VisualExecutor {
             None => self.handle(step, scene, who, out)?,
         };
         Ok(match stand {
-            Stand::Underway => Progress::Running,
+            Stand::Underway => goes_on,
             Stand::Lost(reason) => {
                 self.cancel(out);
                 Progress::Failed { reason }
@@ -301,7 +319,7 @@ impl Executor for VisualExecutor {
                 }
                 self.leave_step();
                 self.state.blocks.move_on();
-                if self.state.blocks.is_over() { Progress::Done } else { Progress::Running }
+                if self.state.blocks.is_over() { Progress::Done } else { goes_on }
             }
         })
     }

@@ -8,6 +8,7 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Scene};
 
 use super::aim::Aim;
+use super::steered::rides;
 use crate::thought::schema::{integer, object, one_of, whole, words};
 
 /// Heading errors below this are left alone, radians.
@@ -16,6 +17,10 @@ const FACED: f64 = 0.03;
 const STEPPING: f64 = 1.0;
 /// The angle by which the slowest body turns in a second, radians.
 const SLOWEST_TURN: f64 = 0.3;
+/// The braking with which a scooter comes to rest, m/s²: what European rules ask of it.
+const ROLLING: f64 = 3.5;
+/// Slower than this one stands, m/s.
+const STANDING: f64 = 0.2;
 
 /// One movement.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,6 +56,10 @@ pub(super) struct Moving {
     /// Steps of the simulation that it may still take.
     left: u64,
     begun: bool,
+    /// Whether it was told to stop, and only has to come to rest.
+    stopping: bool,
+    /// Whether it rolls on meanwhile.
+    rolls: bool,
 }
 
 /// The calls of a body, each with its schema and what it does.
@@ -155,7 +164,8 @@ impl Moving {
         };
         let left = scene.clock().ticks_in(seconds).max(1);
         let heading = wrap_angle(yaw_of(me.pose) + turn);
-        Self { movement, from: me.planar(), heading, left, begun: false }
+        let (from, rolls) = (me.planar(), rides(scene, me));
+        Self { movement, from, heading, left, begun: false, stopping: false, rolls }
     }
 
     /// Goes on for one step of the simulation; what came of it once it has ended.
@@ -171,14 +181,8 @@ impl Moving {
         self.left = self.left.saturating_sub(1);
         match self.movement {
             Movement::Forward(distance) => {
-                let gone = (me.planar() - self.from).norm();
-                if gone >= distance - 0.5 * speed * dt || over {
-                    out.push(Action::Stop);
-                    return Some(format!("went {gone:.1} m of {distance:.1} m forward"));
-                }
-                if first {
-                    out.push(Action::MoveForward { speed });
-                }
+                out.extend(first.then_some(Action::MoveForward { speed }));
+                return self.come_to_rest(me, (distance, 0.5 * speed * dt), over, out);
             }
             Movement::Turn(angle) => {
                 let error = wrap_angle(self.heading - yaw_of(me.pose));
@@ -220,6 +224,29 @@ impl Moving {
                     return Some(format!("braked for {seconds:.1} s, now at {speed:.1} m/s"));
                 }
             }
+        }
+        None
+    }
+    /// Tells a body that goes ahead to stop where it is to come to rest, this far (m) and give or take so much; says how far that was
+    /// when it stands.
+    fn come_to_rest(
+        &mut self,
+        me: &EntityRef<'_>,
+        (distance, slack): (f64, f64),
+        over: bool,
+        out: &mut Vec<Action>,
+    ) -> Option<String> {
+        let gone = (me.planar() - self.from).norm();
+        let pace = me.twist.ground_speed();
+        if self.stopping {
+            // The next picture is taken where it stands.
+            let rests = over || pace < STANDING;
+            return rests.then(|| format!("went {gone:.1} m of {distance:.1} m forward"));
+        }
+        let rolling = if self.rolls { 0.5 * pace * pace / ROLLING } else { 0.0 };
+        if over || gone + rolling >= distance - slack {
+            self.stopping = true;
+            out.push(Action::Stop);
         }
         None
     }
