@@ -124,7 +124,9 @@ impl Link {
     pub(super) fn drop_now(&self, parting: Parting) {
         let mut out = self.lock();
         out.is_open = false;
+        // Nobody waits for the rest any more, or whoever is gone would count as one who has not taken its replies.
         out.pending = Vec::new();
+        out.writing = 0;
         out.parting.get_or_insert(parting);
         drop(out);
         // The peer may be gone already.

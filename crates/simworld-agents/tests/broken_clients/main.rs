@@ -3,6 +3,7 @@
 
 #[path = "../shared/car_common/mod.rs"]
 mod car_common;
+mod counting;
 #[path = "../shared/remote_common/mod.rs"]
 mod remote_common;
 mod remote_withstands_clients;

@@ -151,7 +151,8 @@ impl log::Log for Keeper {
         let mut kept = self.0.lock().unwrap();
         let text = record.args().to_string();
         // the protocol's dumps: 16 bytes a line, behind their hex digits
-        if record.target().starts_with("ureq_proto") && text.len() > 41 {
+        let is_dump = record.level() == log::Level::Trace && record.target().starts_with("ureq_proto");
+        if is_dump && text.len() > 41 {
             kept.push_str(&text[41..]);
         } else {
             let _ = writeln!(kept, "{} {text}", record.target());
@@ -177,6 +178,51 @@ fn no_key_is_in_what_the_http_library_logs() {
     // what is searched is what went over the wire
     assert!(logged.contains("authorization:"), "{logged}");
     assert!(logged.contains("/v1/chat/completions"), "{logged}");
+    std::fs::write(folder.join("library.log"), logged.as_bytes()).unwrap();
+}
+
+/// Sends the header with the key back in every header that the library might log, and in the body.
+fn echo(heard: &Heard, code: u16) -> Answer {
+    let is_key = |line: &&str| line.to_ascii_lowercase().starts_with("authorization:");
+    let line = heard.head.lines().find(is_key).expect("the request has a key");
+    let value = line.split_once(':').map_or("", |(_, value)| value.trim());
+    let names = ["Authorization", "Server", "Content-Type", "Content-Encoding", "Location", "X-Echo"];
+    let headers: Vec<String> = names.iter().map(|name| format!("{name}: {value}\r\n")).collect();
+    status(code, &headers.concat(), &completion(line, "stop").to_string())
+}
+
+#[test]
+fn no_key_is_in_any_log_at_debug_where_a_server_echoes_the_header() {
+    let Some(folder) = with_key("no_key_is_in_any_log_at_debug_where_a_server_echoes_the_header") else {
+        return;
+    };
+    log::set_logger(&KEEPER).unwrap();
+    log::set_max_level(log::LevelFilter::Debug);
+    let codes = Mutex::new(vec![500, 429, 401, 302, 200, 200]);
+    let server = FaultServer::by_rule(move |heard| echo(heard, codes.lock().unwrap().pop().unwrap_or(404)));
+    let clock = Arc::new(ManualClock::new());
+    let tape = Arc::new(Tape::record(&folder.join("tape.jsonl")).unwrap());
+    let log = Arc::new(ModelLog::create(&folder.join("log.jsonl")).unwrap());
+    let client = OpenAiChat::new(config(&server)).unwrap();
+    let mut model = Logged::new(Recorded::new(client, "ann", tape), "ann", log, clock);
+    let (mut given, mut said) = (0, String::new());
+    for _ in 0..6 {
+        match model.chat(&request()) {
+            Ok(reply) => {
+                given += 1;
+                said.extend([format!("{reply:?}\n")]);
+            }
+            Err(error) => said.extend([format!("{error}\n{error:?}\n")]),
+        }
+    }
+    std::fs::write(folder.join("said.txt"), &said).unwrap();
+    let heard = server.heard();
+    assert_eq!((heard.len(), given), (6, 2), "{said}");
+    assert!(heard.iter().all(|heard| heard.head.contains(KEY)), "what is echoed is the key");
+    let logged = KEEPER.0.lock().unwrap();
+    // The library does write such headers down, and there the stars are.
+    assert!(logged.contains("\"server\": \"Bearer ****"), "{logged}");
+    assert!(said.contains("authorization: Bearer "), "{said}");
     std::fs::write(folder.join("library.log"), logged.as_bytes()).unwrap();
 }
 

@@ -1,6 +1,7 @@
 //! Who is slow, silent, too many or too curious is held back or dropped, and delays nobody.
 #![cfg(feature = "remote")]
 
+use std::cell::RefCell;
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::thread;
@@ -105,20 +106,34 @@ fn who_comes_too_many_or_guesses_is_turned_away() {
 
 #[test]
 fn a_long_tick_of_one_who_leaves_ends_with_him() {
-    let server = serve(ServerConfig::on_free_ports());
+    /// More steps than the world takes while the test looks on.
+    const STEPS: u32 = 100_000_000;
+    let limits = Limits { steps: STEPS, ..impatient() };
+    let server = serve(ServerConfig { limits, ..ServerConfig::on_free_ports() });
+    let other = RefCell::new(Client::connect(server.typed, None).expect("it lets us in"));
+    let tick = || other.borrow_mut().describe().expect("others are answered between steps").tick.0;
     let mut leaver = Client::connect(server.typed, None).expect("it lets us in");
-    leaver.send(Request::Tick(100_000)).expect("it is written");
+    assert_eq!(tick(), 0, "in lockstep nothing moves before somebody asks for it");
+    leaver.send(Request::Tick(STEPS)).expect("it is written");
     leaver.flush().expect("it is sent");
-    let mut other = Client::connect(server.typed, None).expect("it lets us in");
-    becomes("the world steps", || true);
-    other.describe().expect("others are answered between steps");
+    becomes("the world steps", || tick() > 0);
+    let before = tick();
+    becomes("it goes on while the leaver waits", || tick() > before);
     drop(leaver);
-    thread::sleep(Duration::from_millis(300));
-    let before = other.describe().expect("it answers").tick;
-    thread::sleep(Duration::from_millis(100));
-    assert_eq!(other.describe().expect("it answers").tick, before, "nobody waits for more steps");
-    assert!(before.0 < 100_000, "{before}");
-    drop(server.stop());
+    // It takes a moment until the server sees that nobody is there any more.
+    becomes("the steps end with him", || {
+        let before = tick();
+        thread::sleep(Duration::from_millis(200));
+        tick() == before
+    });
+    let last = tick();
+    assert!(last < u64::from(STEPS), "they were broken off, and not taken to their end: {last}");
+    // Steps go on for whoever else asks.
+    assert_eq!(other.borrow_mut().tick(3).expect("it is there").0, last + 3);
+    drop(other);
+    let (report, recording) = server.stop();
+    assert_eq!((report.steps, recording.trail.len() as u64), (last + 3, last + 3), "nobody else took a step");
+    assert!(report.partings.contains_key(&Parting::Left), "{report:?}");
 }
 
 #[test]
