@@ -15,7 +15,7 @@ use super::repeats::repeat;
 /// Doing what was said last, before how often.
 #[rustfmt::skip]
 const DO_SO: &Phrases = &Phrases::of(&[
-    "and do all that", "and do all of that", "do all that", "do all of that", "and do all this", "do all this",
+    "and do it all", "do it all", "all of it", "and all of it", "and do all that", "and do all of that", "do all that", "do all of that", "and do all this", "do all this",
     "and repeat all that", "and repeat all of that", "repeat all that", "and again", "and repeat this",
     "repeat this", "repeat the whole thing", "and repeat the whole thing", "and repeat", "repeat",
     "and do the whole thing", "do the whole thing", "do so", "all of that", "all that", "do it", "and do it",

@@ -93,6 +93,12 @@ impl Parser<'_> {
             *reference = Reference { choice, ..Reference::to(Target::Named(ids), String::new()) };
             return Ok(());
         }
+        if self.view.any_of && candidates.len() > 1 {
+            let ids: Vec<EntityId> = candidates.into_iter().map(|(id, _)| id).collect();
+            self.class = None;
+            *reference = Reference::to(Target::Named(ids), format!("{} or {}", reference.text, other.text));
+            return Ok(());
+        }
         let wanted = format!("of {} or {}", reference.text, other.text);
         Err(PlanError::Ambiguous { wanted, candidates })
     }

@@ -16,12 +16,15 @@ const THINKING: &Phrases = &Phrases::of(&[
 #[rustfmt::skip]
 const SMALL_TALK: &Phrases = &Phrases::of(&[
     "we have to leave", "we have to leave now", "we have to go", "we have to go now", "we must leave", "we must leave now", "we must go", "we must go now", "we are leaving", "were leaving",
-    "were leaving now", "time to leave", "its time to leave", "time to go", "its time to go", "we should be going", "we should get going", "somebody must be missing it", "someone must be missing it",
+    "were leaving now", "we should be off", "we must be off", "we ought to be off", "wed better be off", "we are off", "time to leave", "its time to leave", "time to go", "its time to go", "we should be going", "we should get going", "somebody must be missing it", "someone must be missing it",
     "somebody must have lost it", "someone must have lost it", "somebody must have forgotten it", "someone must have forgotten it", "somebody left it behind", "someone left it behind",
     "somebody left it there", "someone left it there", "somebody forgot it", "someone forgot it", "everybody is ready", "everyone is ready", "everything is ready", "we are all ready",
-    "the rain has stopped", "the rain stopped", "it has stopped raining", "its stopped raining", "it stopped raining", "the sun is out", "the sun has come out", "poor boy", "poor girl", "poor thing",
+    "the rain has stopped", "the rain stopped", "it has stopped raining", "its stopped raining", "it stopped raining", "the sun is out", "the sun has come out", "to be honest", "to be fair", "to be frank", "to tell the truth", "to tell you the truth", "truth be told", "poor boy", "poor girl", "poor thing",
     "poor soul", "poor fellow", "bless him", "bless her", "the view must be better there", "the view is better there", "it must be nicer there", "it is nicer there", "its nicer there",
 ]);
+/// What one says to somebody before small talk, with or without a pause.
+#[rustfmt::skip]
+const GREETINGS: &[&str] = &["hi", "hello", "hey", "morning", "evening", "afternoon", "oh", "ah", "okay", "ok", "well", "so", "right", "look", "listen"];
 /// Behind which nobody pauses unless to think.
 #[rustfmt::skip]
 const UNFINISHED: &[&str] = &[
@@ -84,7 +87,7 @@ fn put_words(lexemes: &mut Vec<Lexeme>, from: usize, to: usize, words: &[&str]) 
 fn without_small_talk(lexemes: &mut Vec<Lexeme>) {
     let mut at = 0;
     while at < lexemes.len() {
-        let begins = at == 0 || is_mark(&lexemes[at - 1]);
+        let begins = at == 0 || is_mark(&lexemes[at - 1]) || greets(lexemes, at - 1);
         let said = if begins { longest_phrase(&lexemes[at..], SMALL_TALK) } else { None };
         let end = said.map(|words| at + words);
         match end {
@@ -97,6 +100,11 @@ fn without_small_talk(lexemes: &mut Vec<Lexeme>) {
             _ => at += 1,
         }
     }
+}
+
+/// Whether nothing but a greeting was said before: "hi, um, we have to leave".
+fn greets(lexemes: &[Lexeme], at: usize) -> bool {
+    GREETINGS.contains(&word_at(lexemes, at)) && (at == 0 || is_mark(&lexemes[at - 1]))
 }
 
 /// "..., isn't it?", "..., right?": what asks for a nod.
@@ -206,6 +214,7 @@ mod tests {
             ("the bench farthest from where you are standing now", "the bench farthest from you"),
             ("turn left, right, left", "turn left , right , left"),
             ("go to where you are now", "go to where you are now"),
+            ("Hi we have to leave now, get into the red car", "hi get into the red car"),
         ] {
             assert_eq!(rewritten(said, |lexemes| plainly(lexemes, said)), plain, "{said}");
         }

@@ -128,6 +128,20 @@ impl Parser<'_> {
         said.map(|(compass, _)| compass)
     }
 
+    /// "The third from the west": from which end one counts.
+    pub(super) fn from_the_compass(&mut self) -> Option<Compass> {
+        let start = self.at;
+        let begins = self.eat_any(&["from the", "counting from the", "counted from the", "from"]);
+        let compass = if begins { longest(self.rest(), DIRECTIONS) } else { None };
+        let after = &self.rest()[compass.map_or(0, |(_, count)| count)..];
+        let said = compass.filter(|_| longest_phrase(after, &["of"]).is_none());
+        self.at = said.map_or(start, |(_, count)| self.at + count);
+        if said.is_some() {
+            self.eat_any(&["side", "end"]);
+        }
+        said.map(|(compass, _)| compass)
+    }
+
     /// "North", "northern": a direction as it is said of a part of something.
     pub(super) fn compass_of_part(&mut self) -> Option<Compass> {
         let found = longest(self.rest(), MOST).or_else(|| longest(self.rest(), DIRECTIONS));

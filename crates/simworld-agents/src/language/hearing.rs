@@ -231,6 +231,20 @@ fn with_dashes(lexemes: &mut Vec<Lexeme>, text: &str) {
     }
 }
 
+/// The words with a pause in the place of a sound between two commas, "it's for the video, um, walk there", of the same length; none if there is no
+/// such sound. With both commas taken out, as where somebody looks for a word, the order would go on with the remark.
+pub(super) fn pausing(text: &str) -> Option<String> {
+    let lexemes = lex(text);
+    let mut paused = text.to_owned();
+    for at in 1..lexemes.len() {
+        if is_sound(&lexemes, at) && is_comma(&lexemes, at - 1) && is_comma(&lexemes, at + 1) {
+            let (from, to) = (lexemes[at].start, lexemes[at + 1].end);
+            paused.replace_range(from..to, &" ".repeat(to - from));
+        }
+    }
+    (paused != text).then_some(paused)
+}
+
 /// As [`lex`], without the sounds that people make while they think, and with contractions in full.
 pub(super) fn lex_speech(text: &str) -> Vec<Lexeme> {
     let mut lexemes = lex(text);

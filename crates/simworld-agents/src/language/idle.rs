@@ -38,6 +38,12 @@ const SOMEBODY: &Phrases = &Phrases::of(&[
     "one is", "one was", "one will", "one wont", "one would", "one might", "one may", "one must be", "one of them", "one can", "one could", "one has to", "none of them",
     "some of them", "two of them", "most of them", "once is", "you never", "you can never", "your", "you look", "you must be", "you seem", "youre", "you are", "youve", "you have been",
 ]);
+/// Of whom there are many, and none of them is meant.
+#[rustfmt::skip]
+const CROWDS: &[&str] = &[
+    "kids", "children", "visitors", "guests", "customers", "tourists", "passengers", "neighbours", "neighbors", "parents", "students", "fans", "colleagues", "friends",
+    "clouds", "birds", "bees", "flies", "folks", "locals", "shoppers", "workers", "players", "spectators", "campers",
+];
 /// What nobody is told to do.
 const UNWANTED: &Phrases = &Phrases::of(&[
     "i dont want",
@@ -83,6 +89,33 @@ const CALLS: &Phrases = &Phrases::of(&[
     "small favour",
     "no offence",
 ]);
+/// What is called out or said by the way, by its whole words.
+#[rustfmt::skip]
+const CRIES: &Phrases = &Phrases::of(&[
+    "so am i", "me too", "same here", "silly man", "silly woman", "silly boy", "silly girl", "my friend", "my friends", "my dear", "my dears", "right in the middle", "i do beg your pardon", "do beg pardon",
+    "hi", "hello", "hey", "hiya", "howdy", "morning", "evening", "afternoon", "morning all", "evening all", "hey you", "hello you", "hi there", "okay", "ok", "right", "right then",
+    "well", "well now", "ah", "oh", "hm", "hmm", "er", "erm", "um", "now", "forgot mine", "lost mine", "broke mine", "left mine at home", "oops", "whoops", "ugh", "gosh", "golly", "wow", "phew", "whew", "yikes", "ouch", "whoa", "blimey", "crikey", "hooray", "yay", "brr", "tut tut", "dear me",
+    "goodness", "goodness me", "good grief", "good heavens", "heavens", "honestly", "frankly", "me again", "its me again", "only me", "quick one", "just a quick one",
+    "one more thing", "one last thing", "one more for you", "typical", "typical of him", "typical of her", "typical of them", "lucky you", "lucky me", "lucky us", "lucky him",
+    "lucky her", "poor me", "poor you", "just for fun", "for fun", "just for a laugh", "for a laugh", "just for luck", "team", "okay team", "right team", "kiddo", "kids",
+    "folks", "careful", "careful now", "easy", "easy now", "easy does it", "steady", "steady now", "lots of traffic", "busy day", "long day", "lovely day", "nice day", "my turn",
+    "my turn to choose", "your turn", "our turn", "change of plan", "change of plans", "new plan", "funny thing", "fun fact", "true story", "no joke", "wrong way",
+    "that way lies madness", "long story", "long story short", "where was i", "as it happens", "as luck would have it", "as i was saying", "between you and me", "if i may",
+    "no offence", "small world", "there we are", "there you are", "here goes", "here we go again", "so far so good", "all good", "almost there", "nearly there", "break time",
+    "time for a break", "time to move", "lets play a game", "lets have some fun", "lets play", "lets have a laugh", "lets try something", "lets see what you can do",
+]);
+/// What things are called that are no deeds: "inventory time", "night watch".
+#[rustfmt::skip]
+const OCCASIONS: &[&str] = &[
+    "time", "day", "night", "watch", "duty", "shift", "practice", "training", "hunt", "tour", "hour", "season", "round", "rounds", "lesson", "class", "party", "trip",
+    "market", "sale", "parade", "drill", "test", "exam", "homework",
+];
+/// Words of those that ask for a deed, or say where.
+#[rustfmt::skip]
+const LINKS: &[&str] = &[
+    "the", "a", "an", "my", "your", "his", "her", "to", "at", "on", "in", "into", "onto", "with", "for", "from", "of", "by", "over", "up", "down", "it", "him",
+    "them", "me", "us", "that", "this", "those", "these", "back", "away", "off", "out", "round", "around",
+];
 /// What a remark begins with.
 #[rustfmt::skip]
 const SUBJECTS: &Phrases = &Phrases::of(&[
@@ -100,12 +133,14 @@ const STATES: &Phrases = &Phrases::of(&[
 /// The sentence without what is said at its end, at its beginning, and at both, as far as that asks for nothing.
 pub(super) fn without_remarks<'a>(
     lexemes: &'a [Lexeme],
+    text: &str,
     names: &Names<'_>,
 ) -> impl Iterator<Item = &'a [Lexeme]> {
     let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
     let mut last = end;
     while let Some(mark) = lexemes[..last].iter().rposition(is_mark).filter(|mark| *mark > 0)
         && (is_idle(&lexemes[mark + 1..last], names, true)
+            || is_cry(&lexemes[mark + 1..last], names, false)
             || is_idle_question(&lexemes[mark + 1..last], names))
     {
         last = mark;
@@ -113,7 +148,8 @@ pub(super) fn without_remarks<'a>(
     let mut first = 0;
     while let Some(mark) = lexemes[first..last].iter().position(ends_remark).map(|mark| first + mark)
         && mark + 1 < last
-        && is_idle(&lexemes[first..mark], names, false)
+        && (is_idle(&lexemes[first..mark], names, false)
+            || is_cry(&lexemes[first..mark], names, calls_out(&lexemes[first..], text)))
     {
         first = mark + 1;
     }
@@ -153,13 +189,44 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
             || longest(rest, PAINTS).is_some()
             || number(rest).is_some_and(|(number, _)| (number - 1.0).abs() > f64::EPSILON)
                 && !(of_somebody && tells_time(rest))
-            || !past && (category(rest).is_some() || names.exact(rest).is_some())
+            || !past
+                && !CROWDS.contains(&word_of(&rest[0]))
+                && (category(rest).is_some() || names.exact(rest).is_some())
     };
     clause.len() >= 2
         && clause.iter().all(|lexeme| matches!(lexeme.token, Token::Word(_) | Token::Number(_)))
         && tells
         && !asks
         && !(0..clause.len()).any(speaks_of_something)
+}
+
+/// Whether the sentence that begins here is called out.
+fn calls_out(lexemes: &[Lexeme], text: &str) -> bool {
+    let end = lexemes.iter().find(|lexeme| lexeme.token == Token::Break);
+    end.is_some_and(|end| text.get(end.start..).is_some_and(|rest| rest.starts_with('!')))
+}
+
+/// "Ugh", "lucky you", "feeding time!": what has no verb, and is no order for want of one. Of what is called out two words and more
+/// that name nothing here and join nothing are enough.
+fn is_cry(clause: &[Lexeme], names: &Names<'_>, called_out: bool) -> bool {
+    const MOST: usize = 4;
+    let whole = longest_phrase(clause, CRIES).is_some_and(|words| words == clause.len());
+    let bare = |at: usize| {
+        let rest = &clause[at..];
+        matches!(rest[0].token, Token::Word(_))
+            && rest[0].lemma.is_none()
+            && !LINKS.contains(&word_of(&rest[0]))
+            && longest_phrase(rest, DEMANDS).is_none()
+            && longest_phrase(rest, MAY_DEMAND).is_none()
+            && longest_verb(rest).is_none()
+            && category(rest).is_none()
+            && names.exact(rest).is_none()
+            && number(rest).is_none()
+    };
+    let occasion = clause.last().is_some_and(|last| OCCASIONS.contains(&word_of(last)));
+    let called =
+        (called_out || occasion) && (2..=MOST).contains(&clause.len()) && (0..clause.len()).all(bare);
+    !clause.is_empty() && (whole || called)
 }
 
 /// "I need to know if they are full": what who speaks is about to do, and nobody else.

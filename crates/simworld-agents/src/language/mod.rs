@@ -28,6 +28,7 @@ mod dialects;
 mod draft;
 mod driving;
 pub(crate) mod edits;
+mod enumerated;
 mod following;
 mod fractions;
 mod fronted;
@@ -36,6 +37,7 @@ mod gestures;
 mod handling;
 mod hearing;
 mod idle;
+mod in_turn;
 mod itineraries;
 pub(crate) mod lexer;
 mod lexicon;
@@ -70,6 +72,7 @@ pub(crate) mod scenes;
 mod sequence;
 mod shares;
 mod shopping;
+mod shuttles;
 mod slips;
 mod sorts;
 mod speech;
@@ -104,7 +107,7 @@ use parser::{Parser, shortened};
 use resolve::View;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::scene::Scene;
+use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::{Plan, PlanError, Planner};
 #[cfg(feature = "thought")]
 pub(crate) use structured::{Order, plan_orders};
@@ -181,7 +184,7 @@ impl Planner for GrammarPlanner {
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
         let view = View { speaker: self.speaker, ..View::new(scene, &me, self.policy) };
         let names = Names::new(scene, me.planar(), RANGE);
-        let clauses = match intent {
+        let mut clauses = match intent {
             Intent::Words(words) if words.chars().count() > LONGEST_SENTENCE => {
                 let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
                 return Err(PlanError::NotUnderstood {
@@ -190,21 +193,42 @@ impl Planner for GrammarPlanner {
                     hint,
                 });
             }
-            Intent::Words(words) => {
-                let mut lexemes = hearing::hear(words, me.info.name.as_deref());
-                fractions::in_one(&mut lexemes);
-                chatter::plainly(&mut lexemes, words);
-                let said = repairs::mend(&mut lexemes);
-                read(words, lexemes, &names, &view).or_else(|refused| match said {
-                    Some(said) if !understood(&refused) => read(words, said, &names, &view).or(Err(refused)),
-                    _ => Err(refused),
-                })?
-            }
+            Intent::Words(words) => Self::said(words, &names, &view, &me)?,
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
+            Intent::Plan(_) | Intent::Act(_) => return Ok(intent.ready().unwrap_or_default()),
         };
+        if let Intent::Words(words) = intent {
+            enumerated::once_each(&mut clauses, words);
+        }
         let mut draft = Draft::new(view, &me);
         draft.add_all(&clauses)?;
         Ok(draft.finish())
+    }
+}
+
+impl GrammarPlanner {
+    /// What is made of words: as they stand, as they are corrected in the same breath, or with the pauses of who looks for words.
+    fn said(
+        words: &str,
+        names: &Names<'_>,
+        view: &View<'_>,
+        me: &EntityRef<'_>,
+    ) -> Result<Vec<clause::Clause>, PlanError> {
+        let heard = |words: &str| {
+            let mut lexemes = hearing::hear(words, me.info.name.as_deref());
+            fractions::in_one(&mut lexemes);
+            chatter::plainly(&mut lexemes, words);
+            in_turn::told_one_by_one(&mut lexemes);
+            let said = repairs::mend(&mut lexemes);
+            read(words, lexemes, names, view).or_else(|refused| match said {
+                Some(said) if !understood(&refused) => read(words, said, names, view).or(Err(refused)),
+                _ => Err(refused),
+            })
+        };
+        heard(words).or_else(|refused| match hearing::pausing(words) {
+            Some(paused) if !understood(&refused) => heard(&paused).or(Err(refused)),
+            _ => Err(refused),
+        })
     }
 }
 
@@ -225,11 +249,12 @@ fn read(
     let parse = |lexemes: &[lexer::Lexeme]| Parser::new(words, lexemes, names, view).sentence();
     let says_more = |read: &Result<_, PlanError>| read.as_ref().err().is_none_or(understood);
     parse(&lexemes).or_else(|refused| {
-        if let Some(rest) = idle::without_remarks(&lexemes, names).map(parse).find(says_more) {
+        if let Some(rest) = idle::without_remarks(&lexemes, words, names).map(parse).find(says_more) {
             return rest;
         }
         let Some(told) = restarts::told_straight(&lexemes) else { return Err(refused) };
-        let mut rest = std::iter::once(parse(&told)).chain(idle::without_remarks(&told, names).map(parse));
+        let mut rest =
+            std::iter::once(parse(&told)).chain(idle::without_remarks(&told, words, names).map(parse));
         rest.find(says_more).unwrap_or(Err(refused))
     })
 }

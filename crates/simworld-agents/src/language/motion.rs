@@ -217,44 +217,21 @@ impl Parser<'_> {
 
     /// "Two metres" before "north of the hydrant" or "behind the statue", m.
     fn apart(&mut self) -> Option<f64> {
-        let (length, words) = numbers::walked(self.rest())?;
+        let before = self.at;
+        self.eat_any(&["over", "up", "down"]);
+        self.eat_any(&["to"]);
+        self.eat_any(&["the point", "the spot", "the place", "a point", "a spot", "a place"]);
+        let Some((length, words)) = numbers::walked(self.rest()) else {
+            self.at = before;
+            return None;
+        };
         let start = self.at;
         self.at += words;
         self.eat_any(&["to the", "away"]);
         let side = longest_relation(self.rest()).is_some()
             || self.compass().is_some() && longest_phrase(self.rest(), &["of", "from"]).is_some();
-        self.at = if side { start + words } else { start };
+        self.at = if side { start + words } else { before };
         side.then_some(length)
-    }
-
-    /// "From the statue to the fountain"; "around until ..." leads nowhere in particular.
-    fn between_places(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
-        let start = self.at;
-        if self.eat_any(&["around", "about", "round"]) && self.goes_on() {
-            return Ok(Some(vec![Clause::Forward]));
-        }
-        self.at = start;
-        if !self.eat_any(&["from"]) {
-            let vehicle = self.by_vehicle();
-            let leads = vehicle.is_some() && self.eat_any(&["to", "over to", "back to", "towards"]);
-            let Some(board) = vehicle.filter(|_| leads) else {
-                self.at = start;
-                return Ok(None);
-            };
-            let to = self.reference(0)?;
-            return Ok(Some(vec![board, Clause::Go { to, side: None, pace, within: None }]));
-        }
-        let go = |to| Clause::Go { to, side: None, pace, within: None };
-        let one = self.reference(0)?;
-        if !self.eat_any(&["to", "over to", "towards", "on to"]) {
-            return Err(self.not_understood("say from where to where"));
-        }
-        let other = self.reference(0)?;
-        let begins_here = one.target == Target::Here;
-        if self.eat_any(&["and back again", "and back"]) {
-            return Ok(Some(vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }]));
-        }
-        Ok(Some(if begins_here { vec![go(other)] } else { vec![go(one), go(other)] }))
     }
 
     /// "Come", "come over here": to who says it, where that is known.
@@ -279,18 +256,6 @@ impl Parser<'_> {
     /// As [`goes_on`](Self::goes_on), or nothing follows "keep walking".
     fn continues(&self) -> bool {
         self.goes_on() || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
-    }
-
-    pub(super) fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
-        let one = self.reference(0)?;
-        let (one, other) =
-            if self.eat_any(&["and", "to"]) { (one, self.reference(0)?) } else { Self::pair(&one) };
-        let go = |to| Clause::Go { to, side: None, pace, within: None };
-        let times = numbers::times(self.rest());
-        self.at += times.map_or(0, |(_, count)| count);
-        self.eat_any(&["and back", "and back again"]);
-        let body = vec![go(one), go(other)];
-        Ok(vec![Clause::Repeat { times: times.map_or(1, |(times, _)| times), body }])
     }
 
     /// "next to", "behind" and so on before a place.

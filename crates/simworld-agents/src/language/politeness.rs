@@ -186,7 +186,7 @@ pub(super) const MANNERS: &Phrases = &Phrases::of(&[
     "and dont let him out of your sight", "and dont let her out of your sight", "dont let it out of your sight",
     "nearer one first", "nearest one first", "nearest first", "the nearest first", "the nearer one first",
     "the nearer first", "starting with the closest one", "starting with the nearest one", "beginning with the closest", "beginning with the nearest", "beginning with the closest one",
-    "closest first", "the closest first", "closest one first", "starting with the nearest",
+    "from the closest to the farthest", "from the nearest to the farthest", "from the closest to the furthest", "from the nearest to the furthest", "from near to far", "closest first", "the closest first", "closest one first", "starting with the nearest",
     "starting with the closest", "nearer first", "whichever you like", "whichever you prefer",
     "whichever you want", "any will do", "either will do", "it doesnt matter which", "no matter which",
     "with you", "with it", "with them", "with both hands", "with both arms", "in both arms", "in your arms",

@@ -24,13 +24,13 @@ const ENDINGS: &str = include_str!("request_endings.txt");
 const WELCOME: &[&str] = &[
     "appreciate", "love", "like", "great", "nice", "lovely", "good", "best", "wonderful", "helpful", "help",
     "kind", "grateful", "thankful", "happy", "delighted", "glad", "pleased", "mind", "wonder", "wondering",
-    "prefer", "convenient", "better", "favour", "favor", "service", "kindness", "owe", "lot", "world", "solid", "honoured", "honored",
+    "prefer", "convenient", "better", "favour", "favor", "service", "kindness", "owe", "lot", "world", "solid", "honoured", "honored", "obliged",
 ];
 /// Small words that may stand between an ending and the verb.
 #[rustfmt::skip]
 const BETWEEN: &[&str] = &[
     "maybe", "perhaps", "please", "just", "kindly", "possibly", "now", "then", "first", "next", "simply",
-    "also", "really", "quickly", "go ahead and", "try to", "all",
+    "also", "ever so much", "really", "quickly", "go ahead and", "try to", "all",
 ];
 /// What nobody begins a request with: it says what is, or asks what is.
 #[rustfmt::skip]

@@ -58,6 +58,8 @@ pub(super) struct View<'a> {
     pub(super) policy: AmbiguityPolicy,
     /// The names of streets, where the scene is spoken of and not what somebody is to do in it.
     pub(super) streets: Option<&'a StreetNames>,
+    /// Whether of things that are named with an "or" one is taken later.
+    pub(super) any_of: bool,
     /// What is near, as answers say it: it is looked for once from each place.
     pub(super) told: std::cell::OnceCell<String>,
 }
@@ -90,6 +92,7 @@ impl<'a> View<'a> {
             policy,
             told: std::cell::OnceCell::new(),
             streets: None,
+            any_of: false,
         }
     }
 
@@ -423,10 +426,7 @@ impl<'a> View<'a> {
         let in_use = purpose != Purpose::Any
             && self.candidates(reference, Purpose::Any).is_ok_and(|candidates| !candidates.is_empty());
         let near = if in_use { "all that there are in use".to_owned() } else { self.surroundings() };
-        let wanted = match purpose {
-            _ if !in_use => reference.text.clone(),
-            _ => format!("free {}", reference.text),
-        };
+        let wanted = if in_use { format!("free {}", reference.text) } else { reference.text.clone() };
         PlanError::NotFound { wanted, near }
     }
 

@@ -42,6 +42,12 @@ impl Parser<'_> {
             (reference.choice, reference.place) = (Choice::Side(side), nth);
             return true;
         }
+        if let Choice::Nth(nth) = reference.choice
+            && let Some(compass) = self.from_the_compass()
+        {
+            (reference.choice, reference.place) = (Choice::Compass(compass), nth);
+            return true;
+        }
         if reference.choice == Choice::Open
             && let Some(compass) = self.in_the_compass()
         {
@@ -64,6 +70,13 @@ impl Parser<'_> {
             && self.eat_any(&["of all", "of them all", "of the lot", "of them", "of all of them"])
         {
             return true;
+        }
+        let here = self.at;
+        if reference.choice != Choice::Open && self.eat_any(&["around here", "around", "about", "in sight"]) {
+            if self.ends_clause() {
+                return true;
+            }
+            self.at = here;
         }
         let than = self.comparison();
         reference.traits.than = than.or(reference.traits.than);

@@ -3,85 +3,28 @@
 
 use crate::sentences_common::city::City;
 use crate::thought_common::answers::at_random;
+use crate::thought_common::plans::check_plan;
 use crate::thought_common::{answering, model, text};
 use proptest::prelude::*;
-use simworld_agents::executor::RuleExecutor;
 use simworld_agents::model::{ChatReply, Finish, ModelError, Scripted};
 use simworld_agents::thought::ModelPlanner;
-use simworld_core::action::{Action, ActionSet};
+use simworld_core::action::ActionSet;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
-use simworld_core::seam::{Executor, Goal, Plan, PlanError, PlanStep, Planner};
+use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+use simworld_core::seam::{PlanError, Planner};
 use simworld_core::seed::Seed;
 
 fn asks(words: &str) -> Intent {
     Intent::Words(words.to_owned())
 }
 
-/// Bodies in the harbour with what each can do: a person, a dog and a car.
-fn bodies(city: &mut City) -> [(EntityId, ActionSet); 3] {
-    let mut put = |kind, size: [f64; 3]| {
-        let pose = pose_facing(Point3::new(2.0, 2.0, 0.0), 0.0);
-        city.world.spawn(EntityDesc::new(kind, pose, Shape::cuboid(size[0], size[1], size[2])))
-    };
-    let dog = put(EntityKind::Dog, [0.8, 0.3, 0.6]).expect("a dog stands anywhere");
-    let car = put(EntityKind::Car, [4.5, 1.8, 1.5]).expect("a car stands anywhere");
-    [(city.me, ActionSet::humanoid()), (dog, ActionSet::dog()), (car, ActionSet::vehicle())]
-}
-
-/// Every action is one of the body's, every thing is there, and an executor takes the plan.
-fn check_plan(plan: &Plan, world: &World, who: EntityId, able: ActionSet) {
-    fn visit(steps: &[PlanStep], see: &mut dyn FnMut(&PlanStep)) {
-        for step in steps {
-            see(step);
-            match step {
-                PlanStep::If { then, otherwise, .. } => {
-                    visit(then, see);
-                    visit(otherwise, see);
-                }
-                PlanStep::Repeat { steps, .. } | PlanStep::Until { steps, .. } => visit(steps, see),
-                _ => {}
-            }
-        }
-    }
-    assert!(!plan.steps.is_empty(), "an empty plan does nothing in silence");
-    visit(&plan.steps, &mut |step| match step {
-        PlanStep::Act(action) => {
-            assert!(able.contains(action.kind()), "{action:?} is none of this body's");
-            let (Action::SitDown { seat: id }
-            | Action::PickUp { item: id }
-            | Action::CarryHeavy { item: id }
-            | Action::Give { to: id }
-            | Action::ThrowTo { to: id }
-            | Action::Buy { from: id, .. }
-            | Action::EnterCar { car: id }
-            | Action::RideScooter { scooter: id }
-            | Action::OpenDoor { door: id }
-            | Action::CloseDoor { door: id }
-            | Action::Converse { with: id, .. }
-            | Action::Argue { with: id }
-            | Action::WaveHand { to: id }) = action
-            else {
-                return;
-            };
-            assert!(world.entity(*id).is_some(), "{action:?} is about nothing");
-        }
-        PlanStep::Navigate { to: Goal::Entity(id), .. } | PlanStep::Follow { whom: id, .. } => {
-            assert!(world.entity(*id).is_some() && *id != who, "{step:?} is about nothing");
-        }
-        _ => {}
-    });
-    let mut executor = RuleExecutor::straight();
-    executor.start(plan.clone(), world, who).expect("an executor takes the plan");
-}
-
 #[test]
 fn answers_made_from_the_schema_are_plans_and_spoilt_ones_are_refused() {
     let mut city = City::read("harbour");
     let (mut plans, mut refusals) = ([0; 3], [0; 3]);
-    for (index, (who, able)) in bodies(&mut city).into_iter().enumerate() {
+    for (index, (who, able)) in city.bodies().into_iter().enumerate() {
         for round in 0..120 {
             let spoils = if round % 2 == 0 { 0.0 } else { 0.02 };
             let mut rng = Seed(round).stream("answers").rng();
@@ -116,7 +59,7 @@ fn answers_made_from_the_schema_are_plans_and_spoilt_ones_are_refused() {
 #[test]
 fn a_body_is_offered_what_it_can_do_and_what_is_there() {
     let mut city = City::read("harbour");
-    let [(person, _), (dog, _), (car, _)] = bodies(&mut city);
+    let [(person, _), (dog, _), (car, _)] = city.bodies();
     let acts = |who, world: &World| {
         let (model, asked) = answering(&[r#"{"aim": "", "cannot": "no", "steps": []}"#]);
         let _ = ModelPlanner::new(model).plan(&asks("?"), world, who);

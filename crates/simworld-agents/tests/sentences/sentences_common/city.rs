@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
+use simworld_core::action::ActionSet;
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::{AssetId, EntityId};
@@ -80,6 +81,17 @@ impl City {
             |id: &&EntityId| self.world.entity(**id).is_some_and(|thing| thing.kind == EntityKind::Dog);
         let dog = self.ids.values().find(is_dog).filter(|_| family == "dog");
         dog.copied().unwrap_or(self.me)
+    }
+
+    /// Bodies in the city with what each can do: a person, and a dog and a car that come to it.
+    pub(crate) fn bodies(&mut self) -> [(EntityId, ActionSet); 3] {
+        let mut put = |kind, size: [f64; 3]| {
+            let pose = pose_facing(Point3::new(2.0, 2.0, 0.0), 0.0);
+            self.world.spawn(EntityDesc::new(kind, pose, Shape::cuboid(size[0], size[1], size[2])))
+        };
+        let dog = put(EntityKind::Dog, [0.8, 0.3, 0.6]).expect("a dog stands anywhere");
+        let car = put(EntityKind::Car, [4.5, 1.8, 1.5]).expect("a car stands anywhere");
+        [(self.me, ActionSet::humanoid()), (dog, ActionSet::dog()), (car, ActionSet::vehicle())]
     }
 
     /// What the thing is called in the tables; its label, if it came later.

@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 20] = [
+const SETS: [&str; 23] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -54,6 +54,9 @@ const SETS: [&str; 20] = [
     "eighteenth",
     "nineteenth",
     "twentieth",
+    "twentyfirst",
+    "twentysecond",
+    "twentythird",
 ];
 
 /// One thing that is said, and what it means.
@@ -71,6 +74,20 @@ pub(crate) fn said_in(city: &str) -> Vec<Said> {
     let said: Vec<Said> = SETS.iter().flat_map(|set| said_in_file(&format!("{city}.{set}"))).collect();
     assert!(!said.is_empty(), "nothing is said in {city}");
     said
+}
+
+/// Everything of which it is stated what the world shows afterwards, in whatever file of the place it stands, scored or not.
+pub(crate) fn outcomes_in(place: &str) -> Vec<Said> {
+    let folder = format!("{}/tests/sentences", env!("CARGO_MANIFEST_DIR"));
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder}: {error}"));
+    let mut files: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter_map(|file| file.strip_suffix(".toml").map(str::to_owned))
+        .filter(|file| file.split_once('.').is_some_and(|(of, set)| of == place && set != "city"))
+        .collect();
+    // The order in which a folder is listed is the file system's.
+    files.sort_unstable();
+    files.iter().flat_map(|file| said_in_file(file)).filter(|said| said.outcome.is_some()).collect()
 }
 
 /// What is said in a city by ourselves, of which all is to be right.

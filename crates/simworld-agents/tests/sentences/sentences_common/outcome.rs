@@ -30,7 +30,7 @@ pub(crate) fn carry_out(world: World, me: EntityId, plan: Plan) -> (Simulation, 
             simulation.submit(Command::Actuate { who: me, action });
         }
         simulation.step().unwrap();
-        if progress != Progress::Running {
+        if !progress.goes_on() {
             return (simulation, progress);
         }
     }
@@ -70,6 +70,7 @@ pub(crate) fn shows(
         "seated" => key(parent(Role::Seated)),
         "aboard" => key(parent(Role::Aboard)),
         "holds" => key(world.attached(city.me, Role::Held)),
+        "carries" => key(world.attached(city.me, Role::Carried)),
         "rides" => key(world.attached(city.me, Role::Ridden)),
         "gave" => {
             let (to, _) = object.split_once(' ').expect("gave whom what");

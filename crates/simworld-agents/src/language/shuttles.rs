@@ -1,0 +1,56 @@
+//! From one place to another, and back: "from the statue to the fountain", "back and forth between the benches".
+
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Pace, Target};
+use super::numbers;
+use super::parser::Parser;
+
+impl Parser<'_> {
+    /// "From the statue to the fountain"; "around until ..." leads nowhere in particular.
+    pub(super) fn between_places(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        if self.eat_any(&["around", "about", "round"]) && self.goes_on() {
+            return Ok(Some(vec![Clause::Forward]));
+        }
+        self.at = start;
+        if !self.eat_any(&["from"]) {
+            let vehicle = self.by_vehicle();
+            let leads = vehicle.is_some() && self.eat_any(&["to", "over to", "back to", "towards"]);
+            let Some(board) = vehicle.filter(|_| leads) else {
+                self.at = start;
+                return Ok(None);
+            };
+            let to = self.reference(0)?;
+            return Ok(Some(vec![board, Clause::Go { to, side: None, pace, within: None }]));
+        }
+        let go = |to| Clause::Go { to, side: None, pace, within: None };
+        let one = self.reference(0)?;
+        if !self.eat_any(&["to", "over to", "towards", "on to"]) {
+            return Err(self.not_understood("say from where to where"));
+        }
+        let other = self.reference(0)?;
+        let begins_here = one.target == Target::Here;
+        if self.eat_any(&["and back again", "and back"]) {
+            return Ok(Some(vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }]));
+        }
+        // "Keep walking from the pump to the board until it rains": there and back again and again.
+        Ok(Some(match (begins_here, self.goes_on()) {
+            (true, _) => vec![go(other)],
+            (false, true) => vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }],
+            (false, false) => vec![go(one), go(other)],
+        }))
+    }
+
+    pub(super) fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
+        let one = self.reference(0)?;
+        let (one, other) =
+            if self.eat_any(&["and", "to"]) { (one, self.reference(0)?) } else { Self::pair(&one) };
+        let go = |to| Clause::Go { to, side: None, pace, within: None };
+        let times = numbers::times(self.rest());
+        self.at += times.map_or(0, |(_, count)| count);
+        self.eat_any(&["and back", "and back again"]);
+        let body = vec![go(one), go(other)];
+        Ok(vec![Clause::Repeat { times: times.map_or(1, |(times, _)| times), body }])
+    }
+}
