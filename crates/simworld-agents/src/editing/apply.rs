@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use simworld_core::alteration::Alteration;
 use simworld_core::command::Command;
-use simworld_core::geometry::{Point2, Pose, heading, pose_facing, yaw_of};
+use simworld_core::geometry::{Pose, heading, pose_facing, yaw_of};
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::ops::wrap_angle;
 use simworld_core::passage::Passage;
@@ -19,10 +19,12 @@ use super::error::EditError;
 use super::land::Streets;
 use super::place::Placer;
 use super::reader::ReadBy;
+use super::relax::relaxed;
 use super::row::tell;
 use super::solid::Solid;
 use super::stand::Subject;
 use super::stock::{Stock, door_of};
+use super::taken::Taken;
 use crate::language::edits::Focus;
 
 /// Sizes beyond these are no longer the thing, as a factor.
@@ -41,6 +43,9 @@ pub struct Edited {
     pub answer: Option<String>,
     /// Who understood it.
     pub read_by: ReadBy,
+    /// What was taken where several things fit, under a policy that does not ask
+    /// ([`SceneEditor::with_policy`](super::SceneEditor::with_policy)).
+    pub taken: Vec<Taken>,
 }
 
 /// What an editor keeps of a sentence.
@@ -290,11 +295,15 @@ impl Applier<'_> {
         let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted };
         let placing = placer.place(subject, rank, stands, stream);
         let pose = placing.pose();
-        let refused = pose.is_none().then(|| EditError::NoRoom {
-            what: subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " ")),
-            place: stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and "),
-            why: placing.reasons(world),
-            relaxed: relaxed(&placer, subject, stands, stream),
+        let refused = pose.is_none().then(|| {
+            let instead = relaxed(&placer, subject, stands, stream);
+            EditError::NoRoom {
+                what: subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " ")),
+                place: stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and "),
+                why: placing.reasons(world),
+                relaxed: instead.told(world),
+                instead: Box::new(instead),
+            }
         });
         self.tried.push(placing);
         match (pose, refused) {
@@ -372,31 +381,6 @@ fn resize(desc: &mut EntityDesc, factor: f64) {
     };
     desc.info.mass = desc.info.mass.map(|mass| mass * factor * factor * factor);
     desc.info.access = desc.info.access.map(|access| access * factor);
-}
-
-/// What would be possible instead: the thing near what it was to stand to.
-fn relaxed(placer: &Placer<'_>, subject: Subject<'_>, stands: &[Stand], stream: Stream) -> String {
-    let near = |stand: &Stand| {
-        let anchor = stand.anchor();
-        let at = match stand {
-            Stand::At { point } | Stand::Around { point } => Some(*point),
-            _ => None,
-        };
-        match (anchor, at) {
-            (Some(anchor), _) => Some(Stand::To { relation: Relation::Near, anchor }),
-            (None, Some(point)) => Some(Stand::Around { point }),
-            _ => None,
-        }
-    };
-    for stand in stands.iter().filter_map(near) {
-        let placing = placer.place(subject, (0, 1), std::slice::from_ref(&stand), stream.named("relaxed"));
-        if let Some(pose) = placing.pose() {
-            let Point2 { coords } = simworld_core::geometry::planar(&pose);
-            let told = stand.told(placer.scene);
-            return format!("there is room {told}, at ({:.1}, {:.1})", coords.x, coords.y);
-        }
-    }
-    "there is no room near it either".to_owned()
 }
 
 /// The one thing that stands are about.

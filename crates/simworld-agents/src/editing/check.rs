@@ -4,6 +4,7 @@
 use std::ops::ControlFlow;
 
 use simworld_core::geometry::Obb;
+use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
 use simworld_core::traffic::RoadLeg;
@@ -106,8 +107,12 @@ pub fn faults(world: &World, thing: EntityId) -> Vec<Fault> {
         }
         ControlFlow::Continue(())
     });
-    if let Some(level) = ground_level(world, &entity) {
-        nearer(&mut support, low - level);
+    let gap = match world.ground() {
+        Some(land) => Some(land_gap(land, &entity, &own)),
+        None => ground_level(world, &entity).map(|level| low - level),
+    };
+    if let Some(gap) = gap {
+        nearer(&mut support, gap);
     }
     if let Some(gap) = support.filter(|gap| gap.abs() > SUPPORT_GAP) {
         found.push(Fault::Unsupported { gap });
@@ -127,11 +132,31 @@ fn span(own: &Obb) -> (f64, f64) {
     (middle - own.half_extents.z, middle + own.half_extents.z)
 }
 
-/// The height of the land, or the level on which most things within 60 m stand, to the centimetre, m; of two as frequent the lower.
-fn ground_level(world: &World, thing: &EntityRef<'_>) -> Option<f64> {
-    if let Some(land) = world.ground() {
-        return Some(land.height(thing.planar()));
+/// How far a thing is above the land, m; below zero it is sunk in. What has a level base is looked at under its middle and its four
+/// corners, of which the worst counts; what goes on legs or is let into the ground under its middle.
+fn land_gap(land: &Ground, thing: &EntityRef<'_>, own: &Obb) -> f64 {
+    let (low, _) = span(own);
+    let middle = low - land.height(thing.planar());
+    let is_let_in = matches!(
+        thing.kind,
+        EntityKind::Building
+            | EntityKind::Tree
+            | EntityKind::Shrub
+            | EntityKind::StreetLamp
+            | EntityKind::TrafficSignal
+            | EntityKind::Sign
+            | EntityKind::Hydrant
+    );
+    let has_legs = matches!(thing.kind, EntityKind::Person | EntityKind::Dog | EntityKind::Robot);
+    if is_let_in || has_legs {
+        return middle;
     }
+    let gaps = own.footprint().map(|corner| low - land.height(corner));
+    gaps.into_iter().fold(middle, |worst, gap| if gap.abs() > worst.abs() { gap } else { worst })
+}
+
+/// The level on which most things within 60 m stand, to the centimetre, m; of two as frequent the lower.
+fn ground_level(world: &World, thing: &EntityRef<'_>) -> Option<f64> {
     let mut levels: Vec<i64> = Vec::new();
     let _ = world.visit(&thing.bounds.inflated(60.0), &mut |other| {
         if other.id != thing.id && other.attachment.is_none() {
@@ -147,7 +172,10 @@ fn ground_level(world: &World, thing: &EntityRef<'_>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use simworld_core::geometry::{Point3, pose_facing};
+    use std::sync::Arc;
+
+    use simworld_core::geometry::{Point2, Point3, pose_facing};
+    use simworld_core::ground::{Cover, GroundData};
     use simworld_core::scene::{EntityDesc, Shape};
 
     use super::*;
@@ -178,6 +206,28 @@ mod tests {
         assert!(matches!(faults(&world, floats)[..], [Fault::Unsupported { gap }] if gap > 0.3));
         assert!(matches!(faults(&world, sunk)[..], [Fault::Unsupported { gap }] if gap < -0.1));
         assert!(matches!(faults(&world, inside)[..], [Fault::Penetrates { .. }]));
+    }
+
+    #[test]
+    fn on_a_slope_the_corner_that_hangs_in_the_air_counts() {
+        // It rises to the east by 35 cm a metre: under the middle of a table of a metre all is well, and 17 cm off at its edges.
+        let ground = Ground::new(GroundData {
+            origin: Point2::new(-10.0, -10.0),
+            spacing: 20.0,
+            columns: 2,
+            rows: 2,
+            heights: vec![-3.5, 3.5, -3.5, 3.5],
+            covers: vec![Cover::Grass; 4],
+            water: None,
+        });
+        let mut world = World::new();
+        world.set_ground(Arc::new(ground.unwrap()));
+        let table = put(&mut world, 1.0, 0.35);
+        assert!(matches!(faults(&world, table)[..], [Fault::Unsupported { gap }] if gap.abs() > 0.17));
+        let pose = pose_facing(Point3::new(5.0, 5.0, 1.75), 0.0);
+        let tree = EntityDesc::new(EntityKind::Tree, pose, Shape::cuboid(1.0, 1.0, 8.0));
+        let tree = world.spawn(tree).unwrap();
+        assert_eq!(faults(&world, tree), [], "its roots are in the ground");
     }
 
     #[test]

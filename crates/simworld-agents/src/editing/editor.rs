@@ -17,10 +17,13 @@ use super::land::Streets;
 use super::place::Placing;
 use super::reader::{Asked, EditReader, ReadBy, Shared, is_open};
 use super::stock::Stock;
+use super::taken::Taken;
 use super::workshop::Workshop;
 use crate::generation::AssetGenerator;
+use crate::language::AmbiguityPolicy;
 use crate::language::edits::{self, Focus, Reading};
 use crate::language::streets::StreetNames;
+use crate::retrieval::{Embedder, Meaning};
 
 /// Edits a scene by words. What it does follows from its seed, its words and the scene alone.
 ///
@@ -61,10 +64,13 @@ pub struct SceneEditor {
     placed: u64,
     last: Vec<Placing>,
     reader: Option<Shared>,
+    /// What is done where several things fit.
+    policy: AmbiguityPolicy,
 }
 
 impl SceneEditor {
-    /// An editor with the library of the crate that looks at the scene from its origin.
+    /// An editor with the library of the crate that looks at the scene from its origin. Where several things fit it asks which is
+    /// meant.
     pub fn new(seed: Seed) -> Self {
         Self {
             seed,
@@ -79,19 +85,61 @@ impl SceneEditor {
                 place: None,
                 roads: Vec::new(),
                 streets: Arc::default(),
+                any_of: false,
             },
             history: History::default(),
             streets: None,
             placed: 0,
             last: Vec::new(),
             reader: None,
+            policy: AmbiguityPolicy::Ask,
         }
     }
 
     /// With other things to add.
     #[must_use]
     pub fn with_catalogue(mut self, catalogue: Catalogue) -> Self {
-        self.stock = Arc::new(Stock::new(catalogue));
+        self.stock = Arc::new(Stock::new(catalogue).with_meaning(self.stock.meaning_anew()));
+        self
+    }
+
+    /// With an embedder that is asked what words mean by which nothing of the catalogue is surely found: "a vessel" may then be a
+    /// boat. The catalogue is embedded when that is needed first.
+    #[must_use]
+    pub fn with_embedder(mut self, embedder: impl Embedder + Send + 'static) -> Self {
+        let stock = Stock::clone(&self.stock);
+        self.stock = Arc::new(stock.with_meaning(Some(Meaning::new(embedder))));
+        self
+    }
+
+    /// Treats what is ambiguous so: asks which is meant and changes nothing, which is the default, or takes one of those that fit
+    /// and says which ([`Edited::taken`]). A sentence that is clear as it stands means the same under every policy.
+    ///
+    /// ```
+    /// use simworld_agents::editing::{EditError, SceneEditor};
+    /// use simworld_agents::language::AmbiguityPolicy;
+    /// use simworld_core::geometry::{Point3, pose_facing};
+    /// use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+    /// use simworld_core::seed::Seed;
+    ///
+    /// let mut world = World::new();
+    /// let mut bench = |x: f64| {
+    ///     let pose = pose_facing(Point3::new(x, 0.0, 0.0), 0.0);
+    ///     world.spawn(EntityDesc::new(EntityKind::Bench, pose, Shape::cuboid(0.6, 1.8, 0.85)))
+    /// };
+    /// let (_far, near) = (bench(20.0)?, bench(8.0)?);
+    /// let asked = SceneEditor::new(Seed(7)).say("remove the bench", &mut world);
+    /// assert!(matches!(asked, Err(EditError::Ambiguous { candidates, .. }) if candidates.len() == 2));
+    ///
+    /// let mut editor = SceneEditor::new(Seed(7)).with_policy(AmbiguityPolicy::Nearest);
+    /// let done = editor.say("remove the bench", &mut world)?;
+    /// assert_eq!(done.taken[0].thing, near);
+    /// assert_eq!(world.len(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_policy(mut self, policy: AmbiguityPolicy) -> Self {
+        self.policy = policy;
         self
     }
 
@@ -162,19 +210,34 @@ impl SceneEditor {
 
     fn say_by_grammar(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
         self.learn_streets(scene.world());
-        let reading = edits::read(words, scene.world(), &self.stock, &self.focus)?;
+        let reading = self.read(words, scene.world())?;
+        let (stock, policy) = (Arc::clone(&self.stock), self.policy);
         let notes = self.workshop.as_ref().map_or_else(Vec::new, |shop| shop.fill(&mut self.stock, &reading));
         let mut applier = self.applier(scene);
-        let outcome = (0..reading.len()).try_for_each(|index| carry_out(&reading, index, &mut applier));
+        let outcome =
+            (0..reading.len()).try_for_each(|index| carry_out(&reading, index, policy, &mut applier));
         let (mut edited, back, memory) = applier.finish(outcome.is_ok());
         self.remember(memory);
-        outcome.map_err(|error| error.noting(&notes))?;
-        if !notes.is_empty() {
-            let said = edited.answer.take().into_iter().chain(notes);
-            edited.answer = Some(said.collect::<Vec<_>>().join("; "));
+        if let Err(error) = outcome {
+            // What was made for a sentence that came to nothing can be made again, and is no part of the catalogue.
+            self.stock = stock;
+            return Err(error.noting(&notes));
         }
+        let taken = edited.taken.iter().map(Taken::told);
+        let said: Vec<String> = edited.answer.take().into_iter().chain(taken).chain(notes).collect();
+        edited.answer = (!said.is_empty()).then(|| said.join("; "));
         self.history.push(words.to_owned(), back);
         Ok(edited)
+    }
+
+    /// Reads a sentence. Two things that are named with an "or" are asked about only where the policy is to ask.
+    fn read(&self, words: &str, scene: &dyn Scene) -> Result<Reading, EditError> {
+        let read = edits::read(words, scene, &self.stock, &self.focus);
+        if self.policy != AmbiguityPolicy::Ask && matches!(read, Err(EditError::Ambiguous { .. })) {
+            let focus = Focus { any_of: true, ..self.focus.clone() };
+            return edits::read(words, scene, &self.stock, &focus);
+        }
+        read
     }
 
     /// Carries out edits that somebody else worked out: all of them, or none.
@@ -259,10 +322,17 @@ impl SceneEditor {
 }
 
 /// Works out one wish of a sentence in the scene as it is by now, and carries it out.
-fn carry_out(reading: &Reading, index: usize, applier: &mut Applier<'_>) -> Result<(), EditError> {
+fn carry_out(
+    reading: &Reading,
+    index: usize,
+    policy: AmbiguityPolicy,
+    applier: &mut Applier<'_>,
+) -> Result<(), EditError> {
     let focus = applier.focus.clone();
     let made_before = applier.edited.made.len();
-    for edit in reading.resolve(index, applier.scene.world(), applier.stock, &focus)? {
+    let (edits, taken) = reading.resolve(index, applier.scene.world(), applier.stock, &focus, policy)?;
+    applier.edited.taken.extend(taken);
+    for edit in edits {
         applier.apply(&edit)?;
         if matches!(edit, Edit::Move { .. } | Edit::Remove { .. } | Edit::Swap { .. }) {
             applier.focus.made.clear();

@@ -4,6 +4,8 @@ use simworld_core::command::CommandError;
 use simworld_core::id::EntityId;
 use thiserror::Error;
 
+use super::relax::Relaxed;
+
 /// Why a wish was not carried out; then the scene is as it was.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -51,8 +53,10 @@ pub enum EditError {
         place: String,
         /// What was in the way, and how often.
         why: String,
-        /// The nearest thing that would be possible.
+        /// What would be possible instead, in words.
         relaxed: String,
+        /// The same as it was found.
+        instead: Box<Relaxed>,
     },
     /// It contradicts itself or the world.
     #[error("{what} is impossible: {why}")]

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2, Point3, Pose};
+use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
 use simworld_core::seed::{Stream, StreamRng};
@@ -144,8 +145,7 @@ impl Placer<'_> {
         let (mut fitting, mut best) = (0, f64::NEG_INFINITY);
         for attempt in 0..if exact { 1 } else { TRIES } {
             let Some(spot) = self.draw(&sampler, stands, attempt, &mut rng) else { continue };
-            let solid =
-                Solid::standing(subject.info.shape, Point3::new(spot.at.x, spot.at.y, spot.base), spot.yaw);
+            let solid = self.set_down(subject, stands, &spot);
             let outcome = self.judge(subject, stands, &spot, &solid);
             if let Outcome::Fits { score } = outcome {
                 fitting += 1;
@@ -160,6 +160,24 @@ impl Placer<'_> {
             }
         }
         placing
+    }
+
+    /// The thing at a spot: at its height, or on land that rises and falls on the highest of what is under its corners.
+    fn set_down(&self, subject: Subject<'_>, stands: &[Stand], spot: &Spot) -> Solid {
+        let at = Point3::new(spot.at.x, spot.at.y, spot.base);
+        let solid = Solid::standing(subject.info.shape, at, spot.yaw);
+        // What stands on a thing, or within it, stands on its boards.
+        let is_carried = |stand: &Stand| {
+            matches!(stand, Stand::To { relation: Relation::OnTopOf | Relation::Inside, anchor }
+                if self.scene.entity(*anchor).is_some_and(|anchor| !is_surface(anchor.kind)))
+        };
+        match self.scene.ground().filter(|_| !stands.iter().any(is_carried)) {
+            Some(land) => {
+                let (_, high) = under(land, subject.kind, &solid);
+                Solid::standing(subject.info.shape, Point3::new(at.x, at.y, high), spot.yaw)
+            }
+            None => solid,
+        }
     }
 
     fn draw(
@@ -182,7 +200,7 @@ impl Placer<'_> {
 
     /// What stands beside a thing on a table stands on the ground.
     fn grounded(&self, stand: &Stand, mut spot: Spot) -> Spot {
-        // On land that rises and falls the spot has the height of the land already.
+        // On land that rises and falls the land says how high it is.
         let has_land = self.scene.ground().is_some();
         if has_land || matches!(stand, Stand::To { relation: Relation::OnTopOf, .. }) {
             return spot;
@@ -251,7 +269,8 @@ impl Placer<'_> {
             Some(streets) => streets.suits(subject.kind, solid),
             None => Ok(1.0),
         };
-        let land = land.and_then(|land| land_carries(self.scene, solid, on_top.is_some()).map(|()| land));
+        let carried = || land_carries(self.scene, subject.kind, solid, on_top.is_some());
+        let land = land.and_then(|land| carried().map(|()| land));
         match land {
             Ok(land) => Outcome::Fits { score: 0.5 * (1.0 - spot.odd) + 0.5 * land },
             Err(why) => Outcome::Land { why },
@@ -326,15 +345,147 @@ fn carries(anchor: &simworld_core::scene::EntityRef<'_>, solid: &Solid) -> bool 
 
 /// Nothing is set down where it is steeper, rise over run: dry wood on grass slides from 0.35 on.
 const STANDS_ON: f64 = 0.35;
+/// What stands upright may be so far above the land under any of its corners, or below it, m.
+const SUPPORT_GAP: f64 = 0.05;
 
-/// Whether the land carries a thing: dry, and not too steep.
-fn land_carries(scene: &dyn Scene, solid: &Solid, on_top: bool) -> Result<(), &'static str> {
+/// Whether it stands on land that slopes without a level base: on legs, on roots, on a post that is let into the ground, or on
+/// foundations. All else stands on its corners.
+const fn finds_footing(kind: EntityKind) -> bool {
+    matches!(
+        kind,
+        EntityKind::Person
+            | EntityKind::Dog
+            | EntityKind::Robot
+            | EntityKind::Tree
+            | EntityKind::Shrub
+            | EntityKind::StreetLamp
+            | EntityKind::TrafficSignal
+            | EntityKind::Sign
+            | EntityKind::Hydrant
+            | EntityKind::Building
+    )
+}
+
+/// The least and the greatest height of the land that a thing stands on, m.
+fn under(land: &Ground, kind: EntityKind, solid: &Solid) -> (f64, f64) {
+    let middle = land.height(solid.planar());
+    if finds_footing(kind) {
+        return (middle, middle);
+    }
+    let heights = solid.corners().map(|corner| land.height(corner));
+    heights.into_iter().fold((middle, middle), |(low, high), at| (low.min(at), high.max(at)))
+}
+
+/// Whether the land carries a thing: dry, not too steep, and under all of it.
+fn land_carries(
+    scene: &dyn Scene,
+    kind: EntityKind,
+    solid: &Solid,
+    on_top: bool,
+) -> Result<(), &'static str> {
     let Some(land) = scene.ground().filter(|_| !on_top) else { return Ok(()) };
     let corners = solid.corners();
+    let (low, high) = under(land, kind, solid);
+    let is_steep = |at: &Point2| land.slope(*at) > STANDS_ON;
     match () {
         () if !corners.iter().all(|corner| land.holds(*corner)) => Err("the land ends there"),
         () if corners.iter().any(|corner| land.is_wet(*corner)) => Err("water is there"),
-        () if land.slope(solid.planar()) > STANDS_ON => Err("the land is too steep there"),
+        () if corners.iter().chain([&solid.planar()]).any(is_steep) => Err("the land is too steep there"),
+        () if high - low > SUPPORT_GAP => Err("the land is too steep there"),
+        () if solid.base() - low > SUPPORT_GAP => Err("it would hang in the air there"),
+        () if high - solid.base() > SUPPORT_GAP => Err("it would be sunk into the land there"),
         () => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use simworld_core::geometry::pose_facing;
+    use simworld_core::ground::{Cover, GroundData};
+    use simworld_core::scene::{EntityDesc, World};
+    use simworld_core::seed::Seed;
+
+    use super::super::check::faults;
+    use super::*;
+
+    /// Land that rises to the north by so much a metre; south of the origin it is under water.
+    fn bank(rise: f64) -> World {
+        let heights = (0..11 * 11).map(|index| (f64::from(index / 11) * 10.0 - 50.0) * rise);
+        let ground = Ground::new(GroundData {
+            origin: Point2::new(-50.0, -50.0),
+            spacing: 10.0,
+            columns: 11,
+            rows: 11,
+            heights: heights.map(|height| height as f32).collect(),
+            covers: vec![Cover::Grass; 11 * 11],
+            water: Some(0.0),
+        });
+        let mut world = World::new();
+        world.set_ground(Arc::new(ground.expect("a plane is sound")));
+        world
+    }
+
+    fn bench() -> EntityDesc {
+        EntityDesc::new(EntityKind::Bench, Pose::identity(), Shape::cuboid(0.6, 1.8, 0.85))
+    }
+
+    fn placed(world: &World, desc: &EntityDesc, stand: Stand) -> Placing {
+        let placer = Placer { scene: world, streets: None, from: Point2::origin(), lifted: &[] };
+        let subject = Subject { id: None, kind: desc.kind, info: &desc.info };
+        placer.place(subject, (0, 1), &[stand], Seed(1).stream("tests/place"))
+    }
+
+    /// What became of a thing at a point of the land.
+    fn at(rise: f64, desc: &EntityDesc, x: f64, y: f64) -> Outcome {
+        let placing = placed(&bank(rise), desc, Stand::At { point: Point2::new(x, y) });
+        placing.candidates[0].outcome.clone()
+    }
+
+    #[test]
+    fn a_bench_stands_on_the_higher_of_its_ends_where_the_lower_is_a_hand_off_it_is_too_steep() {
+        // Its ends are 1.8 m apart: 3.6 cm of rise are borne, 9 cm and 54 cm are not, however gentle the slope looks.
+        let mut world = bank(0.02);
+        let placing = placed(&world, &bench(), Stand::At { point: Point2::new(3.0, 20.0) });
+        let pose = placing.pose().expect("it is level enough");
+        assert!((pose.translation.z - 0.02 * 20.9).abs() < 1e-4, "{pose}");
+        let thing = world.spawn(EntityDesc { pose, ..bench() }).expect("a bench");
+        assert_eq!(faults(&world, thing), []);
+        for rise in [0.05, 0.3, 0.4] {
+            let outcome = at(rise, &bench(), 3.0, 20.0);
+            assert_eq!(outcome, Outcome::Land { why: "the land is too steep there" }, "{rise}");
+        }
+    }
+
+    #[test]
+    fn a_tree_grows_where_no_bench_stands_but_not_on_a_cliff() {
+        let tree = EntityDesc::new(EntityKind::Tree, Pose::identity(), Shape::cuboid(0.6, 0.6, 8.0));
+        assert!(matches!(at(0.3, &tree, 3.0, 20.0), Outcome::Fits { .. }));
+        assert_eq!(at(0.4, &tree, 3.0, 20.0), Outcome::Land { why: "the land is too steep there" });
+    }
+
+    #[test]
+    fn nothing_stands_in_the_water_nor_beyond_the_land() {
+        for y in [-20.0, 0.5] {
+            assert_eq!(at(0.02, &bench(), 3.0, y), Outcome::Land { why: "water is there" }, "{y}");
+        }
+        assert_eq!(at(0.02, &bench(), 3.0, 49.5), Outcome::Land { why: "the land ends there" });
+    }
+
+    #[test]
+    fn what_is_put_beside_a_thing_on_a_slope_stands_on_the_land_and_not_as_high_as_that() {
+        let mut world = bank(0.02);
+        let foot = Point3::new(0.0, 20.0, 0.4);
+        let hut =
+            EntityDesc::new(EntityKind::Building, pose_facing(foot, 0.0), Shape::cuboid(12.0, 12.0, 4.0));
+        let hut = world.spawn(hut).expect("a hut");
+        for relation in [Relation::Behind, Relation::LeftOf, Relation::RightOf, Relation::Near] {
+            let placing = placed(&world, &bench(), Stand::To { relation, anchor: hut });
+            let pose = placing.pose().expect("there is room around the hut");
+            let thing = world.spawn(EntityDesc { pose, ..bench() }).expect("a bench");
+            assert_eq!(faults(&world, thing), [], "{relation:?}");
+            world.remove(thing).expect("it is there");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use simworld_core::geometry::{Point2, Point3, Pose, direction, heading};
+use simworld_core::geometry::{Point2, Point3, Pose, direction, heading, planar};
 use simworld_core::id::RoadId;
 use simworld_core::net::polyline;
 use simworld_core::scene::EntityDesc;
@@ -12,6 +12,7 @@ use super::edit::{Line, Make, Sides, Spacing, Stand};
 use super::error::EditError;
 use super::land::Streets;
 use super::place::{Candidate, Outcome, Placer, Placing};
+use super::relax::Relaxed;
 use super::sample::{Item, Sampler, Spot};
 use super::solid::Solid;
 use super::stand::{ROADSIDE, Subject};
@@ -75,7 +76,7 @@ impl Applier<'_> {
         let mut rows = Vec::new();
         for track in &tracks {
             let stations = stations(track, spacing, half.x.max(half.y) * 2.0)?;
-            rows.push(Row::on(track, &stations, spacing, desc, &stands, &placer));
+            rows.push(Row::on(track, &stations, spacing, desc, &stands, &placer, Ends::WithTheLine));
         }
         let enough = |row: &Row| match spacing {
             Spacing::Count(_) => row.left_out == 0,
@@ -94,13 +95,18 @@ impl Applier<'_> {
         if rows.get(best).is_some_and(enough) {
             return Ok(vec![rows.swap_remove(best)]);
         }
+        let asked = rows.get(best).map_or(0, |row| row.poses.len() + row.left_out);
+        let instead = match fewer(&tracks, asked, desc, &stands, &placer) {
+            Relaxed::Nothing => rows.get(best).map_or(Relaxed::Nothing, Row::free),
+            found => found,
+        };
         let tried = rows.into_iter().nth(best).map(|row| row.tried).unwrap_or_default();
         let what = format!("a row of {}", desc.info.name.clone().unwrap_or_else(|| make_name(desc)));
         let place = stands.first().map_or_else(String::new, |stand| stand.told(world));
         let why = tried.reasons(world);
+        let relaxed = instead.told(world);
         self.tried.push(tried);
-        let relaxed = "fewer would do, or a greater distance between them".to_owned();
-        Err(EditError::NoRoom { what, place, why, relaxed })
+        Err(EditError::NoRoom { what, place, why, relaxed, instead: Box::new(instead) })
     }
 }
 
@@ -131,6 +137,48 @@ fn stands_of(line: &Line) -> Vec<Stand> {
     }
 }
 
+/// The largest number below another that do fit evenly, all of them, on one of the tracks. A row of fewer may be refused where one
+/// of more fits, so that it is looked for from above; of many not every number is tried at first.
+fn fewer(
+    tracks: &[Track<'_>],
+    below: usize,
+    desc: &EntityDesc,
+    stands: &[Stand],
+    placer: &Placer<'_>,
+) -> Relaxed {
+    let size = desc.info.shape.size().xy();
+    // More than these stand in each other's way, one behind the other too.
+    let most = |track: &Track<'_>| (track.length / (size.min() + HAND) + 1.0) * track.offs.len() as f64;
+    let room = tracks.iter().map(most).fold(0.0, f64::max) as u32;
+    let fits = |count: u32| {
+        tracks.iter().find_map(|track| {
+            let spacing = Spacing::Count(count);
+            let stations = stations(track, spacing, size.max()).ok()?;
+            let row = Row::on(track, &stations, spacing, desc, stands, placer, Ends::AtTheFirstGap);
+            let spacing = track.length / f64::from(count);
+            (row.left_out == 0).then_some(Relaxed::Fewer { count, spacing })
+        })
+    };
+    let (mut above, mut count) = (below as u32, (below as u32).saturating_sub(1).min(room));
+    while count > 0 {
+        if let Some(found) = fits(count) {
+            return (count + 1..above.min(room.saturating_add(1))).rev().find_map(fits).unwrap_or(found);
+        }
+        above = count;
+        count -= (1 + count / 24).min(count);
+    }
+    Relaxed::Nothing
+}
+
+/// How long a row is looked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    /// As far as the line goes.
+    WithTheLine,
+    /// Until one of them has no place: then not all fit.
+    AtTheFirstGap,
+}
+
 /// A row that was looked for.
 struct Row {
     poses: Vec<Pose>,
@@ -139,6 +187,12 @@ struct Row {
 }
 
 impl Row {
+    /// The places of it that are free, though no row of any number is.
+    fn free(&self) -> Relaxed {
+        let at: Vec<Point2> = self.poses.iter().map(planar).collect();
+        if at.is_empty() { Relaxed::Nothing } else { Relaxed::Free { at } }
+    }
+
     fn on(
         track: &Track<'_>,
         stations: &[f64],
@@ -146,6 +200,7 @@ impl Row {
         desc: &EntityDesc,
         stands: &[Stand],
         placer: &Placer<'_>,
+        ends: Ends,
     ) -> Self {
         let step = match (spacing, stations) {
             (Spacing::Every(step), _) => step,
@@ -177,14 +232,16 @@ impl Row {
                     }
                 }
             }
-            match found {
-                Some((rank, solid)) => {
-                    offs[..=rank].rotate_right(1);
-                    row.tried.taken = Some(row.tried.candidates.len() - 1);
-                    row.poses.push(solid.pose);
-                    solids.push(solid);
+            if let Some((rank, solid)) = found {
+                offs[..=rank].rotate_right(1);
+                row.tried.taken = Some(row.tried.candidates.len() - 1);
+                row.poses.push(solid.pose);
+                solids.push(solid);
+            } else {
+                row.left_out += 1;
+                if ends == Ends::AtTheFirstGap {
+                    break;
                 }
-                None => row.left_out += 1,
             }
         }
         row

@@ -38,8 +38,8 @@ pub enum GenerateError {
         /// What is possible.
         allowed: String,
     },
-    /// The generator takes no pictures.
-    #[error("{generator} makes nothing from pictures: describe the thing in words")]
+    /// The generator takes no pictures and no shapes.
+    #[error("{generator} makes nothing from pictures or shapes: describe the thing in words")]
     Image {
         /// Which generator.
         generator: String,

@@ -22,7 +22,7 @@ pub use hunyuan::{
     Canceller, HunyuanConfig, HunyuanError, HunyuanGenerator, HunyuanVersion, Texture, Ticket, Way,
 };
 pub use procedural::{KnownThing, ProceduralGenerator};
-pub use prompt::{AssetPrompt, LONGEST_PROMPT, SizeHint};
+pub use prompt::{AssetPrompt, LONGEST_PROMPT, SizeHint, ViewImages};
 use simworld_core::asset::Asset;
 
 /// An asset that was made, and what of the prompt it does not show.

@@ -96,7 +96,7 @@ impl AssetGenerator for ProceduralGenerator {
     }
 
     fn generate(&mut self, prompt: &AssetPrompt) -> Result<Made, GenerateError> {
-        if prompt.image.is_some() {
+        if prompt.shows_something() {
             return Err(GenerateError::Image { generator: self.name().to_owned() });
         }
         let words = prompt.checked_words()?;

@@ -19,6 +19,38 @@ pub struct AssetPrompt {
     pub size: SizeHint,
     /// A picture of it, as the bytes of a PNG or JPEG file.
     pub image: Option<Vec<u8>>,
+    /// Pictures of it from its sides, in place of the one.
+    pub views: ViewImages,
+    /// Its shape as the bytes of a GLB file, where it is there already and is to be painted.
+    pub mesh: Option<Vec<u8>>,
+}
+
+/// Pictures of a thing from its sides, each as the bytes of a PNG or JPEG file.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ViewImages {
+    /// From before it.
+    pub front: Option<Vec<u8>>,
+    /// From its left.
+    pub left: Option<Vec<u8>>,
+    /// From behind it.
+    pub back: Option<Vec<u8>>,
+    /// From its right.
+    pub right: Option<Vec<u8>>,
+}
+
+impl ViewImages {
+    /// Those that there are, each with the side that it shows.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &[u8])> {
+        let sides =
+            [("front", &self.front), ("left", &self.left), ("back", &self.back), ("right", &self.right)];
+        sides.into_iter().filter_map(|(side, image)| Some((side, image.as_deref()?)))
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.iter().next().is_none()
+    }
 }
 
 /// How large a thing is to be, m; what is not given is free.
@@ -34,7 +66,7 @@ pub struct SizeHint {
 }
 
 impl AssetPrompt {
-    /// A prompt of words, with seed 0, any size and no picture.
+    /// A prompt of words, with seed 0, any size, no picture and no shape.
     pub fn new(words: impl Into<String>) -> Self {
         Self { words: words.into(), ..Self::default() }
     }
@@ -44,6 +76,11 @@ impl AssetPrompt {
     pub fn seeded(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
+    }
+
+    /// Whether it holds more than words: a picture, or a shape.
+    pub fn shows_something(&self) -> bool {
+        self.image.is_some() || !self.views.is_empty() || self.mesh.is_some()
     }
 
     /// The words without blanks around them.

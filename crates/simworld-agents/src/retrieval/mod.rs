@@ -16,9 +16,11 @@
 
 mod embed;
 mod index;
+mod meaning;
 mod query;
 mod words;
 
 pub use embed::{EmbedError, Embedder, Embeddings};
 pub use index::{AssetIndex, Choice, Hit, Matched};
-pub(crate) use words::is_synonym;
+pub(crate) use meaning::Meaning;
+pub(crate) use words::{is_synonym, telling};

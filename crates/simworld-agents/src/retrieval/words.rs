@@ -86,6 +86,17 @@ pub(super) fn begins_remark(word: &str) -> bool {
     REMARKS.contains(&word)
 }
 
+/// The words of a phrase that say something of a thing, each once and in order.
+pub(crate) fn telling(phrase: &str) -> Vec<String> {
+    let mut telling: Vec<String> = Vec::new();
+    for word in parts(phrase).filter(|word| word.len() > 1 && !is_empty(word) && !begins_remark(word)) {
+        if !telling.contains(&word) {
+            telling.push(word);
+        }
+    }
+    telling
+}
+
 /// A word in the singular.
 pub(super) fn stem(word: &str) -> String {
     if let Some((_, one)) = IRREGULAR.iter().find(|(many, _)| *many == word) {

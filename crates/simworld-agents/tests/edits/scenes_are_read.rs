@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::model_server::ModelServer;
+use crate::model_server::watch::{Watch, as_asked, make_easy};
 use crate::thought_common::{answering, text};
-use simworld_agents::model::OpenAiChat;
+use simworld_agents::model::ChatRequest;
 use simworld_agents::scenes::{GrammarSceneReader, SceneError, SceneReader, SceneReading};
 use simworld_agents::thought::{ModelReasoner, ModelSceneReader, Prompts};
 use simworld_core::environment::{Environment, Sun};
@@ -159,20 +160,29 @@ fn a_model_gives_the_same_spec_or_a_typed_error() {
 fn a_real_server_answers_with_a_spec_or_a_typed_error() {
     let Some(server) = ModelServer::start() else { return };
     let (mut specs, mut errors) = (0, 0);
-    for seed in 0..4 {
-        let model = OpenAiChat::new(server.config()).unwrap();
-        let reasoner =
-            ModelReasoner::new(Box::new(model)).with_temperature(1.0, Some(seed)).with_max_tokens(500);
+    for seed in 0..7 {
+        let change: fn(&mut ChatRequest) = if seed < 4 { as_asked } else { make_easy };
+        let watch = Watch::default();
+        let reasoner = ModelReasoner::new(watch.model(&server, change))
+            .with_temperature(1.0, Some(seed))
+            .with_max_tokens(500);
         let mut reader = ModelSceneReader::with_reasoner(Box::new(reasoner), Arc::new(Prompts::standard()));
-        match reader.read_scene("a harbour town") {
+        let read = reader.read_scene("a harbour town");
+        let (questions, repairs) = watch.settled();
+        assert!(questions == 1 && (watch.faulty()..=1).contains(&repairs), "{repairs} repairs");
+        match read {
             Ok(reading) => {
                 reading.spec.validate().unwrap();
                 specs += 1;
             }
-            Err(SceneError::Model { .. } | SceneError::Nothing { .. }) => errors += 1,
+            Err(SceneError::Model { fault, .. }) => {
+                assert!(repairs == 1 && !fault.is_empty(), "one repair was tried: {fault}");
+                errors += 1;
+            }
+            Err(SceneError::Nothing { .. }) => errors += 1,
             Err(other) => panic!("{other}"),
         }
     }
     println!("{specs} specs, {errors} typed errors");
-    assert_eq!(specs + errors, 4);
+    assert_eq!(specs + errors, 7);
 }

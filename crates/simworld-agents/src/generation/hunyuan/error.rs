@@ -20,6 +20,12 @@ pub enum HunyuanError {
     /// The picture is none.
     #[error("the picture of the prompt {0}")]
     BadImage(&'static str),
+    /// The shape is none.
+    #[error("the shape of the prompt {0}")]
+    BadMesh(&'static str),
+    /// The protocol has no field for it.
+    #[error("servers of Hunyuan3D-2.1 take no {0}: give the prompt one picture, or use a server of 2.0")]
+    NotInProtocol(&'static str),
     /// The server was not reached, or the connection broke.
     #[error("no connection to the generator at {url}: {reason}; is it running, and is the address right?")]
     Transport {

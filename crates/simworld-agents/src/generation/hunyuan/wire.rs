@@ -18,6 +18,9 @@ const ERROR_BODY: usize = 64 * 1024;
 /// The most bytes of a picture.
 const LARGEST_IMAGE: usize = 16 << 20;
 
+/// The most bytes of a shape.
+const LARGEST_MESH: usize = 64 << 20;
+
 /// The body of `/send` and `/generate`.
 pub(super) fn body(
     prompt: &AssetPrompt,
@@ -36,18 +39,59 @@ pub(super) fn body(
     if config.version == HunyuanVersion::V2_0 {
         body["type"] = json!("glb");
     }
-    match &prompt.image {
-        Some(image) if image.len() > LARGEST_IMAGE => {
-            return Err(HunyuanError::BadImage("is larger than 16 MB: give a smaller one"));
-        }
-        Some(image) if !(image.starts_with(b"\x89PNG") || image.starts_with(&[0xFF, 0xD8, 0xFF])) => {
-            return Err(HunyuanError::BadImage("is neither PNG nor JPEG: give one of both"));
-        }
-        Some(image) => body["image"] = Value::String(STANDARD.encode(image)),
-        None if config.version == HunyuanVersion::V2_1 => return Err(HunyuanError::NeedsImage),
-        None => body["text"] = json!(words),
+    if config.version == HunyuanVersion::V2_1 {
+        fits_newer(prompt)?;
+    }
+    if prompt.image.is_some() && !prompt.views.is_empty() {
+        return Err(HunyuanError::BadImage(
+            "is given beside others from its sides: give the one or the others",
+        ));
+    }
+    if let Some(image) = &prompt.image {
+        body["image"] = encoded(image)?;
+    }
+    for (side, image) in prompt.views.iter() {
+        body[format!("image_{side}")] = encoded(image)?;
+    }
+    if prompt.image.is_none() && prompt.views.is_empty() {
+        body["text"] = json!(words);
+    }
+    if let Some(mesh) = &prompt.mesh {
+        body["mesh"] = shape(mesh)?;
     }
     Ok(body.to_string().into_bytes())
+}
+
+/// What 2.1 has no field for: it takes one picture, and needs it.
+fn fits_newer(prompt: &AssetPrompt) -> Result<(), HunyuanError> {
+    match prompt {
+        _ if !prompt.views.is_empty() => Err(HunyuanError::NotInProtocol("pictures from several sides")),
+        _ if prompt.mesh.is_some() => Err(HunyuanError::NotInProtocol("shape to paint")),
+        AssetPrompt { image: None, .. } => Err(HunyuanError::NeedsImage),
+        _ => Ok(()),
+    }
+}
+
+/// A picture as it is sent.
+fn encoded(image: &[u8]) -> Result<Value, HunyuanError> {
+    if image.len() > LARGEST_IMAGE {
+        return Err(HunyuanError::BadImage("is larger than 16 MB: give a smaller one"));
+    }
+    if !(image.starts_with(b"\x89PNG") || image.starts_with(&[0xFF, 0xD8, 0xFF])) {
+        return Err(HunyuanError::BadImage("is neither PNG nor JPEG: give one of both"));
+    }
+    Ok(Value::String(STANDARD.encode(image)))
+}
+
+/// A shape as it is sent.
+fn shape(mesh: &[u8]) -> Result<Value, HunyuanError> {
+    if mesh.len() > LARGEST_MESH {
+        return Err(HunyuanError::BadMesh("is larger than 64 MB: give one of fewer triangles"));
+    }
+    if !mesh.starts_with(b"glTF") {
+        return Err(HunyuanError::BadMesh("is no GLB file: give one"));
+    }
+    Ok(Value::String(STANDARD.encode(mesh)))
 }
 
 /// How far a job is.
@@ -134,4 +178,69 @@ fn bad(reason: &str, answer: &[u8], clean: Clean<'_>) -> HunyuanError {
 
 fn beginning(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).take(KEPT).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generation::ViewImages;
+
+    const PNG: &[u8] = b"\x89PNG, as far as the client looks";
+    const JPEG: &[u8] = &[0xFF, 0xD8, 0xFF, 0xE0];
+    const GLB: &[u8] = b"glTF, as far as the client looks";
+
+    fn asked(version: HunyuanVersion, prompt: &AssetPrompt) -> Result<Value, HunyuanError> {
+        let config = HunyuanConfig { version, ..HunyuanConfig::default() };
+        body(prompt, &prompt.words, &config).map(|body| serde_json::from_slice(&body).unwrap())
+    }
+
+    fn of_sides() -> AssetPrompt {
+        let views =
+            ViewImages { front: Some(PNG.to_vec()), back: Some(JPEG.to_vec()), ..ViewImages::default() };
+        AssetPrompt { views, ..AssetPrompt::new("a bench").seeded((1 << 32) + 7) }
+    }
+
+    #[test]
+    fn pictures_from_the_sides_are_sent_each_by_its_name() {
+        let sent = asked(HunyuanVersion::V2_0, &of_sides()).unwrap();
+        let wanted = json!({
+            "type": "glb", "seed": 7, "octree_resolution": 256, "num_inference_steps": 5, "guidance_scale": 5.0,
+            "texture": false, "face_count": 40_000, "image_front": STANDARD.encode(PNG),
+            "image_back": STANDARD.encode(JPEG),
+        });
+        assert_eq!(sent, wanted, "no words, and no side that nobody gave");
+        let all = ViewImages { left: Some(PNG.to_vec()), right: Some(PNG.to_vec()), ..of_sides().views };
+        let sent = asked(HunyuanVersion::V2_0, &AssetPrompt { views: all, ..of_sides() }).unwrap();
+        for side in ["image_front", "image_left", "image_back", "image_right"] {
+            assert!(sent.get(side).is_some(), "{side}");
+        }
+    }
+
+    #[test]
+    fn a_shape_is_sent_with_what_is_said_or_shown_of_it() {
+        let of_words = AssetPrompt { mesh: Some(GLB.to_vec()), ..AssetPrompt::new("a bench") };
+        let sent = asked(HunyuanVersion::V2_0, &of_words).unwrap();
+        assert_eq!((&sent["mesh"], &sent["text"]), (&json!(STANDARD.encode(GLB)), &json!("a bench")));
+        let shown = AssetPrompt { image: Some(PNG.to_vec()), ..of_words };
+        let sent = asked(HunyuanVersion::V2_0, &shown).unwrap();
+        assert_eq!((&sent["image"], sent.get("text")), (&json!(STANDARD.encode(PNG)), None));
+        assert!(sent.get("mesh").is_some());
+    }
+
+    #[test]
+    fn what_is_none_or_has_no_field_is_not_sent() {
+        let both = AssetPrompt { image: Some(PNG.to_vec()), ..of_sides() };
+        assert!(matches!(asked(HunyuanVersion::V2_0, &both), Err(HunyuanError::BadImage(_))));
+        let gif = ViewImages { right: Some(b"GIF89a".to_vec()), ..ViewImages::default() };
+        let gif = AssetPrompt { views: gif, ..AssetPrompt::new("a bench") };
+        assert!(matches!(asked(HunyuanVersion::V2_0, &gif), Err(HunyuanError::BadImage(_))));
+        let no_mesh = AssetPrompt { mesh: Some(b"solid".to_vec()), ..AssetPrompt::new("a bench") };
+        assert!(matches!(asked(HunyuanVersion::V2_0, &no_mesh), Err(HunyuanError::BadMesh(_))));
+        for prompt in [of_sides(), AssetPrompt { image: Some(PNG.to_vec()), ..no_mesh }] {
+            let refused = asked(HunyuanVersion::V2_1, &prompt);
+            assert!(matches!(refused, Err(HunyuanError::NotInProtocol(_))), "{refused:?}");
+        }
+        let words = AssetPrompt::new("a bench");
+        assert!(matches!(asked(HunyuanVersion::V2_1, &words), Err(HunyuanError::NeedsImage)));
+    }
 }

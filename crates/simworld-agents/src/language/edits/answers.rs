@@ -24,7 +24,7 @@ impl Finder<'_> {
         let mut focus = self.focus.clone();
         for wish in wishes {
             let view = view_of(self.scene, &focus);
-            let finder = Finder { scene: self.scene, stock: self.stock, focus: &focus, view };
+            let finder = self.looking_with(&focus, view);
             let more = finder.edits(wish)?;
             // "Remove it and put a table there": where it stood, for by then it is gone.
             let gone = more.iter().find_map(|edit| match edit {
@@ -74,7 +74,7 @@ impl Finder<'_> {
         if roads.iter().any(is_closed) == closed {
             let focus = Focus { roads, ..self.focus.clone() };
             let view = view_of(self.scene, &focus);
-            return Finder { scene: self.scene, stock: self.stock, focus: &focus, view }.edits(then);
+            return self.looking_with(&focus, view).edits(then);
         }
         let why = format!("nothing was changed: it is {}", if closed { "open" } else { "closed" });
         Ok(vec![Edit::Leave { why }])

@@ -185,7 +185,7 @@ impl Attempts<'_> {
     /// Whether what the first wish is about is there. What later wishes are about may be made by earlier ones.
     fn is_there(&self, wishes: &[Vec<Wish>]) -> bool {
         let Self { scene, stock, focus, .. } = *self;
-        let finder = Finder { scene, stock, focus, view: view_of(scene, focus) };
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
         let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
         // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
         let is_lost = self.begins_with_place && wishes.iter().flatten().any(is_nowhere);

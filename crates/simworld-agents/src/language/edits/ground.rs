@@ -148,7 +148,7 @@ impl Finder<'_> {
         let it = || self.candidates(&plain).ok().filter(|found| found.len() == 1)?.first().copied();
         let focus = self.focus_on(found.first().copied().or_else(it));
         let view = super::view_of(self.scene, &focus);
-        Finder { scene: self.scene, stock: self.stock, focus: &focus, view }.edits(then)
+        self.looking_with(&focus, view).edits(then)
     }
 
     /// Every second, third ... of all that fit, in the order in which they stand.

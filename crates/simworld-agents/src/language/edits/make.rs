@@ -46,7 +46,12 @@ impl NewThing {
             Ok((asset, scale)) => Ok(self.made_from(asset, self.scale_of(&asset.name, scale, stock), season)),
             Err(left_over) => {
                 let asset = self.by_search(&words, left_over, stock)?;
-                Ok(self.made_from(asset, self.scale_of(&asset.name, self.scale, stock), season))
+                // "A big obelisk" that was made is as big as that.
+                let is_so =
+                    |word: String| LARGE_OR_SMALL.contains(&word.as_str()) && asset.tags.contains(&word);
+                let is_sized = stock.is_made(asset) && self.words_of_size().any(is_so);
+                let scale = if is_sized { 1.0 } else { self.scale };
+                Ok(self.made_from(asset, self.scale_of(&asset.name, scale, stock), season))
             }
         }
     }
@@ -81,7 +86,8 @@ impl NewThing {
         Ok((asset, if is_large(&asset) { 1.0 } else { self.scale }))
     }
 
-    /// The asset that a search is sure of.
+    /// The asset that a search is sure of: by the words, or by what they mean where somebody brought an embedder. Of a noun that is
+    /// known nothing that is said may be left over, so that its words alone are searched for.
     fn by_search<'a>(
         &self,
         words: &[&str],
@@ -89,7 +95,15 @@ impl NewThing {
         stock: &'a Stock,
     ) -> Result<&'a Asset, EditError> {
         let said: Vec<&str> = words.iter().copied().filter(|word| !HARMLESS.contains(word)).collect();
-        match (stock.index.choose(&said.join(" ")), left_over) {
+        let said = said.join(" ");
+        let by_words = || stock.index.choose(&said);
+        let (choice, fault) = match left_over {
+            Some(_) => (by_words(), None),
+            None => {
+                stock.choose(&said).map_or_else(|fault| (by_words(), Some(fault)), |choice| (choice, None))
+            }
+        };
+        match (choice, left_over) {
             // "A hat" is nobody who wears one.
             (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(words, near(&[]))),
             (Choice::Sure(hit), _) => stock.catalogue.get(hit.asset).ok_or_else(|| unknown(words, near(&[]))),
@@ -103,7 +117,10 @@ impl NewThing {
                 .first()
                 .filter(|_| are_one(&hits))
                 .and_then(|hit| stock.catalogue.get(hit.asset))
-                .ok_or_else(|| unknown(words, near(&hits))),
+                .ok_or_else(|| {
+                    let fault = fault.map_or_else(String::new, |fault| format!("; {fault}"));
+                    unknown(words, near(&hits) + &fault)
+                }),
         }
     }
 
@@ -152,6 +169,10 @@ fn is_worn(hit: &Hit, stock: &Stock) -> bool {
         && !hit.because.iter().any(in_name)
         && hit.because.iter().any(|(word, _)| WORN.contains(&word.as_str()))
 }
+
+/// Words of size, which a generator heeds by itself.
+#[rustfmt::skip]
+const LARGE_OR_SMALL: &[&str] = &["huge", "giant", "gigantic", "enormous", "massive", "big", "large", "great", "small", "little", "mini", "tiny", "miniature"];
 
 /// What people wear or carry.
 const WORN: &[&str] =

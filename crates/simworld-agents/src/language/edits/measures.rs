@@ -266,7 +266,7 @@ impl Finder<'_> {
         }
         let focus = self.focus_on(Some(one));
         let view = super::view_of(self.scene, &focus);
-        Finder { scene: self.scene, stock: self.stock, focus: &focus, view }.edits(then)
+        self.looking_with(&focus, view).edits(then)
     }
 
     /// Each of some things in the size that was asked for.

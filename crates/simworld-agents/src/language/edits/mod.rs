@@ -65,6 +65,7 @@ mod retold;
 mod rows;
 mod sayings;
 mod says;
+mod settle;
 mod several_nearest;
 mod shared;
 mod shares;
@@ -127,6 +128,8 @@ pub(crate) struct Focus {
     pub(crate) roads: Vec<RoadId>,
     /// What streets are called.
     pub(crate) streets: Arc<StreetNames>,
+    /// Whether of things that are named with an "or" one will be taken.
+    pub(crate) any_of: bool,
 }
 
 /// A sentence that was read.
@@ -166,7 +169,7 @@ pub(crate) fn read(
         Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
     let nearest = reader.with_nearest_to_street();
     let reader = Reader { lexemes: nearest.as_deref().unwrap_or(&lexemes), ..reader };
-    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
     let topics = reader.with_topics(&finder);
     let reader = Reader { lexemes: topics.as_deref().unwrap_or(reader.lexemes), ..reader };
     let pointed = reader.with_what_was_pointed_at();
@@ -381,6 +384,7 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
         gone: Vec::new(),
         policy: AmbiguityPolicy::Nearest,
         streets: Some(&focus.streets),
+        any_of: focus.any_of,
         told: std::cell::OnceCell::new(),
     }
 }

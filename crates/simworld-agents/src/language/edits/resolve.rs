@@ -13,9 +13,10 @@ use super::super::lexer::{Token, lex};
 use super::super::lexicon::category;
 use super::super::resolve::{Purpose, View};
 use super::places::is_pronoun;
+use super::settle::Settling;
 use super::sky::changed;
 use super::wish::{NewThing, Where, Wish};
-use super::{Focus, Reading, view_of};
+use super::{Focus, Reading};
 use crate::editing::{Edit, EditError, Stand, Stock};
 
 /// The questions about what stands somewhere are answered so far around, m.
@@ -32,30 +33,6 @@ impl Reading {
         let lacking = things.filter(|thing| matches!(thing.make(stock), Err(EditError::UnknownThing { .. })));
         lacking.map(|thing| (thing.text.clone(), thing.prompt().to_owned())).collect()
     }
-
-    /// The edits that a wish means in the scene as it is: those of its first reading whose things are there.
-    pub(crate) fn resolve(
-        &self,
-        index: usize,
-        scene: &dyn Scene,
-        stock: &Stock,
-        focus: &Focus,
-    ) -> Result<Vec<Edit>, EditError> {
-        let mut refused = None;
-        for wish in self.wishes.get(index).into_iter().flatten() {
-            let finder = Finder { scene, stock, focus, view: view_of(scene, focus) };
-            match finder.edits(wish) {
-                Ok(edits) => return Ok(edits),
-                Err(error) => refused = refused.or(Some(error)),
-            }
-        }
-        let words = self.words.clone();
-        Err(refused.unwrap_or(EditError::NotUnderstood {
-            words,
-            fragment: String::new(),
-            hint: super::UNDERSTOOD.to_owned(),
-        }))
-    }
 }
 
 pub(super) struct Finder<'a> {
@@ -63,6 +40,8 @@ pub(super) struct Finder<'a> {
     pub(super) stock: &'a Stock,
     pub(super) focus: &'a Focus,
     pub(super) view: View<'a>,
+    /// What takes one of several that fit; without it, which is asked.
+    pub(super) settling: Option<&'a Settling>,
 }
 
 impl Finder<'_> {
@@ -225,6 +204,7 @@ impl Finder<'_> {
             return Ok(Edit::Swap { one, other });
         }
         let both = self.candidates(one)?;
+        let both = if both.len() > 2 { self.some_of(one, &both, 2)? } else { both };
         match both[..] {
             [first, second] => Ok(Edit::Swap { one: first, other: second }),
             _ => Err(self.ambiguous(one, &both)),
@@ -341,7 +321,7 @@ impl Finder<'_> {
                 && !reference.indefinite
                 && reference.text.contains("the ")
             {
-                return Err(self.ambiguous(reference, &things));
+                return self.some_of(reference, &things, count as usize);
             }
             things.truncate(count as usize);
         }
@@ -354,7 +334,7 @@ impl Finder<'_> {
             self.in_a_row(&Reference { choice: Choice::Open, count: Count::All, ..reference.clone() })?;
         match all.len() % 2 {
             1 => Ok(vec![all[all.len() / 2]]),
-            _ => Err(self.ambiguous(reference, &all)),
+            _ => self.one_of_the_middle(reference, &all),
         }
     }
 
@@ -374,19 +354,15 @@ impl Finder<'_> {
             || matches!(reference.target, Target::Id(_));
         if decided && reference.choice != Choice::Middle {
             // A superlative that two share is open.
-            self.view.find(&Reference { count: Count::One, ..reference.clone() }, Purpose::Any)?;
+            let shared =
+                self.view.find(&Reference { count: Count::One, ..reference.clone() }, Purpose::Any).err();
+            if let Some(shared) = shared {
+                return self.one_of_shared(reference, shared);
+            }
         } else if found.len() > 1 {
-            return Err(self.ambiguous(reference, &found));
+            return Ok(self.some_of(reference, &found, 1)?[0]);
         }
         Ok(found[0])
-    }
-
-    fn ambiguous(&self, reference: &Reference, found: &[EntityId]) -> EditError {
-        let label = |id: &EntityId| {
-            let entity = self.scene.entity(*id);
-            (*id, entity.map_or_else(|| id.to_string(), |entity| entity.label().to_owned()))
-        };
-        EditError::Ambiguous { wanted: reference.text.clone(), candidates: found.iter().map(label).collect() }
     }
 
     fn is_about_viewer(&self, reference: &Reference) -> Result<(), EditError> {

@@ -1,12 +1,12 @@
 //! The judge of rows, streets, areas and distances: by coordinates alone, without anything that the editor uses.
 
-use simworld_core::asset::Catalogue;
-use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
+use simworld_core::geometry::{Point2, Vector2, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::LaneDirection;
 use simworld_core::ops::{atan2, wrap_angle};
 use simworld_core::scene::Scene;
 
+use super::relations::Footprint;
 use super::{Judge, Rest, place_of};
 use crate::city::{STREETS, piece, road_at};
 
@@ -21,18 +21,10 @@ impl Judge<'_> {
     pub(super) fn row(&self, told: &str, rest: &mut Rest) -> Result<(), String> {
         let mut words: Vec<&str> = told.split_whitespace().collect();
         let is_any = words[0] == "any";
-        let name = if is_any { words.remove(1) } else { words[0] };
+        let name = if is_any { format!("any {}", words.remove(1)) } else { words[0].to_owned() };
         words.remove(0);
-        let catalogue = Catalogue::library();
-        let is_made = |id: &EntityId| {
-            let entity = self.after.entity(*id).expect("it was added");
-            let asset = catalogue.find(name).and_then(|id| catalogue.get(id));
-            let same = |asset: &simworld_core::asset::Asset| {
-                entity.kind == asset.kind && (entity.info.shape.size() - asset.collider.size()).norm() < 1e-9
-            };
-            if is_any { entity.kind.as_str() == name } else { asset.is_some_and(same) }
-        };
-        let row: Vec<EntityId> = rest.added.iter().copied().filter(is_made).collect();
+        let row: Vec<EntityId> =
+            rest.added.iter().copied().filter(|id| self.is_made(*id, &name, 1.0)).collect();
         rest.added.retain(|id| !row.contains(id));
         let spacing = words.remove(0);
         let count = spacing.strip_prefix('x').map(|count| count.parse().expect("a count"));
@@ -218,7 +210,8 @@ impl Judge<'_> {
         let at = place_of(self.after, thing);
         let box_of = |id: EntityId| *self.after.entity(id).expect("it is there").bounds;
         let anchor = || self.id(keys[0]);
-        let gap = || gap(&box_of(anchor()), &box_of(thing));
+        let footprint = |id: EntityId| Footprint::of(self.after, id).expect("it is there");
+        let gap = || footprint(anchor()).gap(&footprint(thing));
         let number =
             |rank: usize| -> f64 { keys[rank].parse().unwrap_or_else(|_| panic!("no number {keys:?}")) };
         match relation {
@@ -272,10 +265,4 @@ impl Judge<'_> {
 
 fn street(key: &str) -> (&'static str, &'static str, bool, f64) {
     STREETS.into_iter().find(|street| street.0 == key).unwrap_or_else(|| panic!("no street {key}"))
-}
-
-/// Between two boxes in the plane, m.
-fn gap(one: &Aabb, other: &Aabb) -> f64 {
-    let apart = |axis: usize| (one.min[axis] - other.max[axis]).max(other.min[axis] - one.max[axis]).max(0.0);
-    (apart(0) * apart(0) + apart(1) * apart(1)).sqrt()
 }

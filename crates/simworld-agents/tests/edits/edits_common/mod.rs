@@ -2,17 +2,20 @@
 
 mod asked;
 mod ground;
+mod relations;
 
-use simworld_agents::editing::{Difference, Edit, EditError, Edited, SceneEditor, Stand, faults};
+use std::sync::LazyLock;
+
+use simworld_agents::editing::{Difference, Edit, EditError, Edited, SceneEditor, faults};
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point2, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
-use simworld_core::scene::{EntityRef, Relation, Scene, World};
+use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::traffic::RoadLeg;
 
-pub(crate) use asked::{Asked, CITIES, is_whole, sampled_in, taught_in};
+pub(crate) use asked::{Asked, CITIES, is_whole, newest_in, sampled_in, taught_in};
 
 use crate::city::City;
 
@@ -67,10 +70,40 @@ impl Judge<'_> {
             self.clause(clause.trim(), edited, &mut rest)?;
         }
         rest.is_empty()?;
-        for thing in self.changed.added.iter().chain(&self.changed.moved) {
-            let found = faults(self.after, *thing);
-            if !found.is_empty() {
-                return Err(format!("{thing} stands badly: {found:?}"));
+        self.alters_as_asked(&rest.asked)?;
+        let placed = self.changed.added.iter().chain(&self.changed.moved);
+        placed.chain(&self.changed.altered).try_for_each(|thing| self.stands_well(*thing))
+    }
+
+    /// Whether a thing runs into nothing and is held up. What was amiss with it before and is not worse since is no fault of an edit
+    /// that left it where it was.
+    fn stands_well(&self, thing: EntityId) -> Result<(), String> {
+        let mut found = faults(self.after, thing);
+        if self.changed.altered.contains(&thing) && !self.changed.moved.contains(&thing) {
+            let before = faults(&self.city.world, thing);
+            found.retain(|fault| !before.contains(fault));
+        }
+        if found.is_empty() { Ok(()) } else { Err(format!("{thing} stands badly: {found:?}")) }
+    }
+
+    /// Whether of everything that was altered nothing is otherwise but what was asked.
+    fn alters_as_asked(&self, asked: &[(EntityId, Trait)]) -> Result<(), String> {
+        for thing in &self.changed.altered {
+            let was = self.city.world.entity(*thing).expect("what was altered was there");
+            let is = self.after.entity(*thing).expect("what was altered is there");
+            let mut due = was.info.clone();
+            for (_, which) in asked.iter().filter(|(of, _)| of == thing) {
+                match which {
+                    Trait::Color => due.color = is.info.color,
+                    Trait::Name => due.name.clone_from(&is.info.name),
+                    // What is larger is heavier, and its door is farther from its middle.
+                    Trait::Size => {
+                        (due.shape, due.mass, due.access) = (is.info.shape, is.info.mass, is.info.access);
+                    }
+                }
+            }
+            if was.kind != is.kind || due != *is.info {
+                return Err(format!("{thing} is otherwise than asked: {:?}, not {due:?}", is.info));
             }
         }
         Ok(())
@@ -148,8 +181,10 @@ impl Judge<'_> {
                 let other = self.id(words[1]);
                 take(&mut rest.moved, thing, "moved")?;
                 take(&mut rest.moved, other, "moved")?;
-                let (was, is) = (place_of(&self.city.world, thing), place_of(self.after, other));
-                is_near((was - is).norm(), 0.0, 1e-6, "stands elsewhere")
+                [(thing, other), (other, thing)].into_iter().try_for_each(|(one, other)| {
+                    let (was, is) = (place_of(&self.city.world, one), place_of(self.after, other));
+                    is_near((was - is).norm(), 0.0, 1e-6, "stands elsewhere")
+                })
             }
         }
     }
@@ -163,17 +198,20 @@ impl Judge<'_> {
             "paint" => {
                 // What was of that colour already need not change.
                 rest.altered.retain(|id| *id != thing);
+                rest.asked.push((thing, Trait::Color));
                 self.wears(thing, words[1])
             }
             "scale" => {
                 self.was_altered(thing, "scaled", rest)?;
+                rest.asked.push((thing, Trait::Size));
                 let factor: f64 = words[1].parse().map_err(|_| format!("no factor {clause}"))?;
-                let height =
-                    |world: &World| world.entity(thing).map_or(0.0, |thing| thing.info.shape.size().z);
-                is_near(height(self.after) / height(&self.city.world), factor, 0.01, "has another size")
+                let size = |world: &World| world.entity(thing).expect("it is there").info.shape.size();
+                let times = size(self.after).component_div(&size(&self.city.world));
+                times.iter().try_for_each(|times| is_near(*times, factor, 0.01, "has another size"))
             }
             _ => {
                 self.was_altered(thing, "named", rest)?;
+                rest.asked.push((thing, Trait::Name));
                 let name = told.split('\'').nth(1).unwrap_or_default();
                 let named = self.after.entity(thing).and_then(|thing| thing.info.name.clone());
                 if named.as_deref() == Some(name) { Ok(()) } else { Err(format!("is called {named:?}")) }
@@ -197,20 +235,9 @@ impl Judge<'_> {
 
     fn added(&self, told: &str, rest: &mut Rest) -> Result<(), String> {
         let mut words: Vec<&str> = told.split_whitespace().collect();
-        let catalogue = Catalogue::library();
         let asset = words.remove(0);
         let is_big = words.contains(&"big");
-        let is_made = |entity: &EntityRef<'_>, name: &str| {
-            if let Some(kind) = name.strip_prefix("any ") {
-                return entity.kind.as_str() == kind;
-            }
-            let asset = catalogue
-                .find(name)
-                .and_then(|id| catalogue.get(id))
-                .unwrap_or_else(|| panic!("no asset {name}"));
-            let size = asset.collider.size() * if is_big { 2.0 } else { 1.0 };
-            entity.kind == asset.kind && (entity.info.shape.size() - size).norm() < 1e-9
-        };
+        let scale = if is_big { 2.0 } else { 1.0 };
         let name = if asset == "any" { format!("any {}", words.remove(0)) } else { asset.to_owned() };
         let count = take_count(&mut words);
         let is_colored = words.first().is_some_and(|word| COLORS.contains(word));
@@ -221,8 +248,7 @@ impl Judge<'_> {
         let place = words.join(" ");
         for _ in 0..count {
             let fits = |id: &EntityId| {
-                let entity = self.after.entity(*id).expect("it was added");
-                is_made(&entity, &name)
+                self.is_made(*id, &name, scale)
                     && color.is_none_or(|color| self.wears(*id, color).is_ok())
                     && self.stands(*id, &place).is_ok()
             };
@@ -232,6 +258,21 @@ impl Judge<'_> {
             rest.added.remove(index);
         }
         Ok(())
+    }
+
+    /// Whether a new thing is of that asset, and so many times as large; `any KIND` leaves the asset open.
+    fn is_made(&self, thing: EntityId, name: &str, scale: f64) -> bool {
+        let entity = self.after.entity(thing).expect("it was added");
+        if let Some(kind) = name.strip_prefix("any ") {
+            return entity.kind.as_str() == kind;
+        }
+        let found = LIBRARY.find(name).and_then(|id| LIBRARY.get(id));
+        let asset = found.unwrap_or_else(|| panic!("no asset {name}"));
+        let size = asset.collider.size() * scale;
+        let made_of = entity.info.asset.and_then(|id| self.after.assets()?.get(id));
+        made_of.is_some_and(|made_of| made_of.name == asset.name)
+            && entity.kind == asset.kind
+            && (entity.info.shape.size() - size).norm() < 1e-9
     }
 
     fn copied(&self, words: &[&str], rest: &mut Rest) -> Result<(), String> {
@@ -244,6 +285,7 @@ impl Judge<'_> {
                 let copy = self.after.entity(*id).expect("it was added");
                 copy.kind == original.kind
                     && copy.info.shape == original.info.shape
+                    && copy.info.asset == original.info.asset
                     && self.stands(*id, &place).is_ok()
             };
             let Some(index) = rest.added.iter().position(same) else {
@@ -252,57 +294,6 @@ impl Judge<'_> {
             rest.added.remove(index);
         }
         Ok(())
-    }
-
-    // ---- relations ----
-
-    fn stands(&self, thing: EntityId, place: &str) -> Result<(), String> {
-        let all = place.split('&').map(str::trim).filter(|place| !place.is_empty());
-        for one in all {
-            if !alternatives(one).iter().any(|place| self.stands_so(thing, place)) {
-                return Err(format!("{thing} does not stand {one}"));
-            }
-        }
-        Ok(())
-    }
-
-    fn stands_so(&self, thing: EntityId, place: &str) -> bool {
-        let (relation, told) = place.split_once(' ').unwrap_or((place, ""));
-        let keys: Vec<&str> = told.split_whitespace().collect();
-        let to = |relation| Stand::To { relation, anchor: self.id(keys[0]) }.holds(self.after, thing);
-        let compass = |degrees: f64| {
-            Stand::Towards { heading: degrees.to_radians(), anchor: self.id(keys[0]) }
-                .holds(self.after, thing)
-        };
-        match relation {
-            "next_to" => to(Relation::NextTo),
-            "near" => to(Relation::Near),
-            "far_from" => to(Relation::FarFrom),
-            "in_front_of" => to(Relation::InFrontOf),
-            "behind" => to(Relation::Behind),
-            "left_of" => to(Relation::LeftOf),
-            "right_of" => to(Relation::RightOf),
-            "on_top_of" => to(Relation::OnTopOf),
-            "inside" => to(Relation::Inside),
-            "east_of" => compass(0.0),
-            "north_of" => compass(90.0),
-            "west_of" => compass(180.0),
-            "south_of" => compass(-90.0),
-            "between" => {
-                Stand::Between { one: self.id(keys[0]), other: self.id(keys[1]) }.holds(self.after, thing)
-            }
-            "across_from" => Stand::AcrossFrom { anchor: self.id(keys[0]) }.holds(self.after, thing),
-            "along" => Stand::Along { anchor: self.id(keys[0]) }.holds(self.after, thing),
-            "at_corner_of" => Stand::AtCornerOf { anchor: self.id(keys[0]) }.holds(self.after, thing),
-            "here" => (place_of(self.after, thing) - place_of(self.after, self.city.me)).norm() <= 27.0,
-            "anywhere" => true,
-            "at" => {
-                let numbers: Vec<f64> =
-                    told.split(['(', ')', ',', ' ']).filter_map(|text| text.parse().ok()).collect();
-                (place_of(self.after, thing) - Point2::new(numbers[0], numbers[1])).norm() < 0.01
-            }
-            other => self.stands_on_ground(thing, other, &keys),
-        }
     }
 
     // ---- the rest ----
@@ -343,6 +334,8 @@ impl Judge<'_> {
     }
 }
 
+static LIBRARY: LazyLock<Catalogue> = LazyLock::new(Catalogue::library);
+
 const COLORS: [&str; 11] =
     ["red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "white", "grey", "black"];
 
@@ -374,6 +367,16 @@ struct Rest {
     altered: Vec<EntityId>,
     environment: bool,
     passages: Vec<RoadLeg>,
+    /// What of which thing was to be otherwise, as far as that was accounted for.
+    asked: Vec<(EntityId, Trait)>,
+}
+
+/// What of a thing may be altered.
+#[derive(Clone, Copy)]
+enum Trait {
+    Color,
+    Size,
+    Name,
 }
 
 impl Rest {
@@ -385,11 +388,12 @@ impl Rest {
             altered: changed.altered.clone(),
             environment: changed.environment,
             passages: changed.passages.clone(),
+            asked: Vec::new(),
         }
     }
 
     fn is_empty(&self) -> Result<(), String> {
-        let Self { added, removed, moved, altered, environment, passages } = self;
+        let Self { added, removed, moved, altered, environment, passages, .. } = self;
         let all = [added, removed, moved, altered];
         if all.iter().all(|list| list.is_empty()) && !environment && passages.is_empty() {
             Ok(())
@@ -434,14 +438,6 @@ fn refused(refusal: &str, outcome: &Result<Edited, EditError>) -> Result<(), Str
     };
     let names = error.to_string().to_lowercase().contains(&part.to_lowercase());
     if is == kind.trim() && names { Ok(()) } else { Err(format!("answered {is}")) }
-}
-
-/// `next_to bench_1|bench_2` is next to either.
-fn alternatives(place: &str) -> Vec<String> {
-    let Some((before, choices)) = place.split_once(' ').filter(|(_, keys)| keys.contains('|')) else {
-        return vec![place.to_owned()];
-    };
-    choices.split('|').map(|key| format!("{before} {}", key.trim())).collect()
 }
 
 fn place_of(world: &World, thing: EntityId) -> Point2 {

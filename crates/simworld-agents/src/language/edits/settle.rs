@@ -1,0 +1,150 @@
+//! Several things that fit, and nothing that says which: it is asked, or a policy takes one and that is told.
+
+use std::cell::RefCell;
+
+use simworld_core::id::EntityId;
+use simworld_core::scene::Scene;
+use simworld_core::seam::PlanError;
+
+use super::super::AmbiguityPolicy;
+use super::super::clause::Reference;
+use super::super::resolve::View;
+use super::resolve::Finder;
+use super::{Focus, Reading, view_of};
+use crate::editing::{Edit, EditError, Stock, Taken};
+
+/// A policy, and what it took.
+#[derive(Debug)]
+pub(super) struct Settling {
+    policy: AmbiguityPolicy,
+    taken: RefCell<Vec<Taken>>,
+}
+
+impl Settling {
+    fn note(&self, taken: Taken) {
+        let mut all = self.taken.borrow_mut();
+        // The same phrase is looked up more than once.
+        if !all.contains(&taken) {
+            all.push(taken);
+        }
+    }
+}
+
+impl Reading {
+    /// The edits that a wish means in the scene as it is: those of its first reading whose things are there. Which is meant of
+    /// several is asked first, so that what is clear in another reading is so under every policy; then the policy takes one.
+    pub(crate) fn resolve(
+        &self,
+        index: usize,
+        scene: &dyn Scene,
+        stock: &Stock,
+        focus: &Focus,
+        policy: AmbiguityPolicy,
+    ) -> Result<(Vec<Edit>, Vec<Taken>), EditError> {
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let asked = self.resolve_by(index, &finder);
+        if policy == AmbiguityPolicy::Ask || !matches!(asked, Err(EditError::Ambiguous { .. })) {
+            return Ok((asked?, Vec::new()));
+        }
+        let settling = Settling { policy, taken: RefCell::default() };
+        let edits = self.resolve_by(index, &Finder { settling: Some(&settling), ..finder })?;
+        Ok((edits, settling.taken.into_inner()))
+    }
+
+    fn resolve_by(&self, index: usize, finder: &Finder<'_>) -> Result<Vec<Edit>, EditError> {
+        let mut refused = None;
+        for wish in self.wishes.get(index).into_iter().flatten() {
+            match finder.edits(wish) {
+                Ok(edits) => return Ok(edits),
+                Err(error) => refused = refused.or(Some(error)),
+            }
+            // What was taken in a reading that came to nothing was not.
+            if let Some(settling) = finder.settling {
+                settling.taken.borrow_mut().clear();
+            }
+        }
+        let words = self.words.clone();
+        Err(refused.unwrap_or(EditError::NotUnderstood {
+            words,
+            fragment: String::new(),
+            hint: super::UNDERSTOOD.to_owned(),
+        }))
+    }
+}
+
+impl Finder<'_> {
+    /// The same, as the scene is looked at with another focus.
+    pub(super) fn looking_with<'b>(&'b self, focus: &'b Focus, view: View<'b>) -> Finder<'b> {
+        Finder { scene: self.scene, stock: self.stock, focus, view, settling: self.settling }
+    }
+
+    /// So many of those that fit, where nothing says which: those that the policy takes, or a question.
+    pub(super) fn some_of(
+        &self,
+        reference: &Reference,
+        found: &[EntityId],
+        count: usize,
+    ) -> Result<Vec<EntityId>, EditError> {
+        let settling = self.settling.filter(|settling| settling.policy != AmbiguityPolicy::Ask);
+        let Some(settling) = settling else { return Err(self.ambiguous(reference, found)) };
+        let mut ranked = found.to_vec();
+        ranked.sort_unstable();
+        if settling.policy == AmbiguityPolicy::Nearest {
+            // Of equally near ones the first.
+            ranked.sort_by(|a, b| self.distance_to(*a).total_cmp(&self.distance_to(*b)));
+        }
+        ranked.truncate(count);
+        for thing in &ranked {
+            settling.note(Taken {
+                wanted: reference.text.clone(),
+                thing: *thing,
+                label: self.label(*thing),
+                of: found.len(),
+                policy: settling.policy,
+            });
+        }
+        Ok(ranked)
+    }
+
+    /// One of those of which each is as much the most of something as the others.
+    pub(super) fn one_of_shared(
+        &self,
+        reference: &Reference,
+        refused: PlanError,
+    ) -> Result<EntityId, EditError> {
+        match (refused, self.settling) {
+            (PlanError::Ambiguous { candidates, .. }, Some(_)) if !candidates.is_empty() => {
+                let found: Vec<EntityId> = candidates.into_iter().map(|(id, _)| id).collect();
+                Ok(self.some_of(reference, &found, 1)?[0])
+            }
+            (refused, _) => Err(refused.into()),
+        }
+    }
+
+    /// One of the two in the middle of a row of an even number.
+    pub(super) fn one_of_the_middle(
+        &self,
+        reference: &Reference,
+        all: &[EntityId],
+    ) -> Result<Vec<EntityId>, EditError> {
+        let half = all.len() / 2;
+        match (all.get(half.saturating_sub(1)..=half), self.settling) {
+            (Some(both), Some(_)) => self.some_of(reference, both, 1),
+            _ => Err(self.ambiguous(reference, all)),
+        }
+    }
+
+    pub(super) fn ambiguous(&self, reference: &Reference, found: &[EntityId]) -> EditError {
+        let candidates = found.iter().map(|id| (*id, self.label(*id))).collect();
+        EditError::Ambiguous { wanted: reference.text.clone(), candidates }
+    }
+
+    fn label(&self, id: EntityId) -> String {
+        self.scene.entity(id).map_or_else(|| id.to_string(), |entity| entity.label().to_owned())
+    }
+
+    /// From where the scene is looked at, m.
+    fn distance_to(&self, id: EntityId) -> f64 {
+        self.scene.entity(id).map_or(f64::INFINITY, |entity| self.view.distance(&entity))
+    }
+}
