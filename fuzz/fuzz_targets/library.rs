@@ -2,17 +2,7 @@
 
 #![no_main]
 
-use std::path::{Component, Path};
+#[path = "../checks/library.rs"]
+mod library;
 
-use libfuzzer_sys::fuzz_target;
-use simworld_agents::library::Manifest;
-
-fuzz_target!(|text: &str| {
-    if let Ok(manifest) = Manifest::read(text, 1000) {
-        for row in &manifest.assets {
-            let Some(path) = &row.get_ref().model else { continue };
-            assert!(Path::new(path).components().all(|part| matches!(part, Component::Normal(_))), "{path:?}");
-            assert!(!path.contains([':', '\\', '\0']), "{path:?}");
-        }
-    }
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| library::check(data));

@@ -2,14 +2,9 @@
 
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use simworld_physics::robot::{ImportOptions, mjcf};
-
+#[path = "../checks/mjcf.rs"]
+mod mjcf;
+#[path = "../checks/robots.rs"]
 mod robots;
 
-fuzz_target!(|data: &[u8]| {
-    let Ok(text) = std::str::from_utf8(data) else { return };
-    if let Ok(read) = mjcf::from_str(text, &ImportOptions::default()) {
-        robots::stands(read.description);
-    }
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| mjcf::check(data));

@@ -3,49 +3,7 @@
 
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use simworld_citygen::osm::{Place, PlaceOptions};
-use simworld_citygen::{City, CityConfig};
-use simworld_core::seed::Seed;
+#[path = "../checks/osm_pbf.rs"]
+mod osm_pbf;
 
-/// A field of bytes of a message.
-fn field(number: u8, content: &[u8], into: &mut Vec<u8>) {
-    into.push(number << 3 | 2);
-    varint(content.len() as u64, into);
-    into.extend_from_slice(content);
-}
-
-fn varint(mut number: u64, into: &mut Vec<u8>) {
-    while number >= 0x80 {
-        into.push(number as u8 | 0x80);
-        number >>= 7;
-    }
-    into.push(number as u8);
-}
-
-/// A file of one block of elements.
-fn framed(content: &[u8]) -> Vec<u8> {
-    let mut blob = Vec::new();
-    field(1, content, &mut blob);
-    let mut header = Vec::new();
-    field(1, b"OSMData", &mut header);
-    header.push(3 << 3);
-    varint(blob.len() as u64, &mut header);
-    let mut file = (header.len() as u32).to_be_bytes().to_vec();
-    file.append(&mut header);
-    file.append(&mut blob);
-    file
-}
-
-fn check(bytes: &[u8]) {
-    let Ok(place) = Place::from_pbf(bytes) else { return };
-    let made = City::from_place(&place, &PlaceOptions::default(), &CityConfig::default(), Seed(1));
-    if let Ok((city, _)) = made {
-        assert_eq!(city.network.check(), Ok(()));
-    }
-}
-
-fuzz_target!(|data: &[u8]| {
-    check(data);
-    check(&framed(data));
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| osm_pbf::check(data));

@@ -2,19 +2,7 @@
 
 #![no_main]
 
-use std::sync::LazyLock;
+#[path = "../checks/sumo_demand.rs"]
+mod sumo_demand;
 
-use libfuzzer_sys::fuzz_target;
-use simworld_core::seed::Seed;
-use simworld_traffic::sumo::{SumoDemand, SumoNet};
-
-static NET: LazyLock<SumoNet> = LazyLock::new(|| {
-    let grid = include_bytes!("../../crates/simworld-traffic/tests/sumo/data/grid.net.xml");
-    SumoNet::read(grid.as_slice()).expect("netgenerate wrote it")
-});
-
-fuzz_target!(|data: &[u8]| {
-    if let Ok(demand) = SumoDemand::read(data) {
-        let _planned_or_refused = demand.schedule(&NET, Seed(1));
-    }
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| sumo_demand::check(data));

@@ -2,11 +2,7 @@
 
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use simworld_traffic::sumo::SumoNet;
+#[path = "../checks/sumo_net.rs"]
+mod sumo_net;
 
-fuzz_target!(|data: &[u8]| {
-    if let Ok(read) = SumoNet::read(data) {
-        assert_eq!(read.network.check(), Ok(()));
-    }
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| sumo_net::check(data));
