@@ -21,7 +21,7 @@ use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
 use simworld_core::seam::{PlanStep, Planner, Progress};
 use simworld_core::seed::Seed;
-use simworld_examples::chat::{Pictures, Stage, step_in_words, steps_in_words};
+use simworld_examples::chat::{Pictures, Stage, Tally, step_in_words, steps_in_words};
 use simworld_examples::city::{Source, make};
 use simworld_examples::{Outcome, exit_code};
 use simworld_traffic::TrafficConfig;
@@ -29,7 +29,7 @@ use simworld_traffic::TrafficConfig;
 /// Type a sentence, see the plan, watch it done. "stop" interrupts; the end of the input ends it.
 ///
 /// You speak to Robin, who stands on a sidewalk; Anna, the dog Rex, a scooter, a parcel and a red car are near by. The map
-/// (map.svg) and what Robin sees (eye.png, eye-TICK.png) are written as it goes.
+/// (map.svg) and what Robin sees (eye.png, eye-TICK.png) are written as it goes. The last line says how many sentences were planned.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -98,9 +98,15 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         }
         None => Box::new(GrammarPlanner::default()),
     };
-    let mut chat = Chat { arguments, city, stage, pictures, planner };
+    let mut chat = Chat { arguments, city, stage, pictures, planner, tally: Tally::default() };
     chat.show("the beginning")?;
-    if arguments.say.is_empty() { chat.listen() } else { chat.recite() }
+    if arguments.say.is_empty() {
+        chat.listen()?;
+    } else {
+        chat.recite()?;
+    }
+    println!("{}", chat.tally);
+    Ok(())
 }
 
 struct Chat<'a> {
@@ -109,6 +115,7 @@ struct Chat<'a> {
     stage: Stage,
     pictures: Pictures,
     planner: Box<dyn Planner>,
+    tally: Tally,
 }
 
 impl Chat<'_> {
@@ -154,7 +161,9 @@ impl Chat<'_> {
     /// Plans and does it; what was said meanwhile, if anything was.
     fn carry_out(&mut self, sentence: &str, lines: &Receiver<String>) -> Outcome<Option<String>> {
         let intent = Intent::Words(sentence.to_owned());
-        let plan = match self.planner.plan(&intent, self.stage.world(), self.stage.me()) {
+        let answer = self.planner.plan(&intent, self.stage.world(), self.stage.me());
+        self.tally.count(&answer);
+        let plan = match answer {
             Ok(plan) => plan,
             Err(answer) => {
                 println!("  {answer}");

@@ -13,12 +13,15 @@ use clap::{Parser, ValueEnum};
 use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use simworld_agents::asynchronous::{AsynchronousConfig, AsynchronousEpisode, FreeMind, Pace};
+use simworld_agents::episode::Episode;
 use simworld_agents::gym::{VectorConfig, VectorEnv};
 use simworld_agents::language::GrammarPlanner;
 use simworld_agents::mind::Silent;
 use simworld_agents::observer::{SceneGraph, SceneGraphObserver};
+use simworld_core::event::EventKind;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
+use simworld_core::scene::Scene;
 use simworld_core::seam::{EnvError, Observer, Options, Planner, SpaceValue};
 use simworld_core::seed::Seed;
 use simworld_examples::minds::{Bodies, Crowd, Dawdler, Promenade, SENTENCES, Speaker};
@@ -135,12 +138,21 @@ fn language(table: &mut Table) -> Outcome<()> {
 fn crowd(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
     let crowd = Crowd::new(arguments.agents, 120, Bodies::Physical, Seed(1))?;
     let bodies = crowd.bodies.clone();
-    let mut episode = crowd.episode(|index| Speaker::new(index, 300))?;
-    for _ in 0..50 {
+    // Everybody says something every 10 s, and has said so before the time is taken.
+    let mut episode = crowd.episode(|index| Speaker::new(index, 100))?;
+    for _ in 0..100 {
         episode.step()?;
     }
     bodies.set(Duration::ZERO);
-    let (stepped, time) = timed(|| (0..300).try_for_each(|_| episode.step().map(|_| ())));
+    let (mut planned, mut moving) = (0, 0);
+    let (stepped, time) = timed(|| {
+        (0..300).try_for_each(|_| {
+            episode.step()?;
+            planned += episode.events().iter().filter(|event| is_taken_up(&event.kind)).count();
+            moving += on_the_move(&episode);
+            Ok::<_, Box<dyn std::error::Error>>(())
+        })
+    });
     stepped?;
     let share = bodies.get().as_secs_f64() / time.as_secs_f64();
     table.add_row([
@@ -149,10 +161,28 @@ fn crowd(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
             arguments.agents,
             episode.simulation().world().len()
         ),
-        format!("{:.2} times real time ({:.0} % of it bodies)", 30.0 / time.as_secs_f64(), share * 100.0),
+        format!(
+            "{:.2} times real time ({:.0} % of it bodies); {planned} steps of plans begun, {:.0} % on the move",
+            30.0 / time.as_secs_f64(),
+            share * 100.0,
+            moving as f64 / (300 * arguments.agents) as f64 * 100.0
+        ),
         "1".to_owned(),
     ]);
     Ok(())
+}
+
+fn is_taken_up(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::StepBegun { .. })
+}
+
+/// How many agents move by now.
+fn on_the_move(episode: &Episode<Promenade>) -> usize {
+    /// Slower than this one stands, m/s.
+    const STANDS: f64 = 0.1;
+    let world = episode.simulation().world();
+    let moves = |id: &&EntityId| world.entity(**id).is_some_and(|body| body.twist.ground_speed() > STANDS);
+    episode.agents().iter().filter(moves).count()
 }
 
 fn driver(table: &mut Table) -> Outcome<()> {

@@ -2,8 +2,10 @@
 
 mod pictures;
 mod stage;
+mod tally;
 mod tell;
 
 pub use pictures::Pictures;
 pub use stage::{Stage, StageError};
+pub use tally::Tally;
 pub use tell::{step_in_words, steps_in_words};

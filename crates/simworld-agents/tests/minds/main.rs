@@ -10,6 +10,7 @@ mod fault_server;
 mod injections_change_nothing;
 mod memories_come_to_mind;
 mod minds_think_and_act;
+mod minds_think_through_llama_cpp;
 mod model_keys_stay_secret;
 #[path = "../shared/model_server/mod.rs"]
 mod model_server;

@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests; each file uses its own part")]
 
 pub(crate) mod answers;
+pub(crate) mod plans;
 
 use std::sync::{Arc, Mutex};
 
