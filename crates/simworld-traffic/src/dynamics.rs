@@ -150,11 +150,13 @@ impl TrafficDynamics {
 
     /// Finds out who came, and takes out of the traffic whose entities somebody took out of the world.
     fn look_around(&mut self, world: &World) {
-        let Self { others, vehicles, pedestrians, .. } = self;
+        let Self { others, vehicles, pedestrians, traffic, .. } = self;
+        let in_the_way =
+            |entity: &EntityRef<'_>| stands_about(entity) && traffic.is_in_the_way(&seen(entity));
         let vehicles_own = (0..).map(Who::Vehicle).zip(vehicles.iter());
         let own = vehicles_own.chain((0..).map(Who::Walker).zip(pedestrians.iter()));
         let own = own.filter(|(_, id)| **id != NOBODY).map(|(who, id)| (*id, who));
-        for (id, who) in others.look(world, own) {
+        for (id, who) in others.look(world, own, &in_the_way) {
             self.bury(id, who);
         }
     }
@@ -163,17 +165,7 @@ impl TrafficDynamics {
     fn watch(&mut self, world: &World) {
         self.foreign.clear();
         let is_here = |entity: &EntityRef<'_>| entity.attachment.is_none() && !is_parked(entity);
-        self.foreign.extend(self.others.iter(world).filter(is_here).map(|entity| {
-            let size = entity.info.shape.size() * 0.5;
-            let linear = entity.twist.linear;
-            Foreign {
-                position: entity.planar(),
-                radius: size.x,
-                half_width: size.y,
-                direction: direction(yaw_of(entity.pose)),
-                velocity: Vector2::new(linear.x, linear.y),
-            }
-        }));
+        self.foreign.extend(self.others.iter(world).filter(is_here).map(|entity| seen(&entity)));
     }
 
     /// Removes the entities of those who left.
@@ -267,6 +259,35 @@ fn portray(walker: &Pedestrian, paint: &mut StreamRng) -> EntityDesc {
     let height = paint.normal_clamped(grown - growing, 0.07, 1.0, 2.1);
     let coat = [0; 3].map(|_: i32| paint.uniform(0.02, 0.5) as f32);
     EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.22, height }).colored(coat)
+}
+
+/// An entity as drivers and walkers see it.
+fn seen(entity: &EntityRef<'_>) -> Foreign {
+    let size = entity.info.shape.size() * 0.5;
+    let linear = entity.twist.linear;
+    Foreign {
+        position: entity.planar(),
+        radius: size.x,
+        half_width: size.y,
+        direction: direction(yaw_of(entity.pose)),
+        velocity: Vector2::new(linear.x, linear.y),
+    }
+}
+
+/// Whether an entity is something solid that is put somewhere. What a street is built with (lamps, lights, signs, trees, houses) is not:
+/// it stands beside the lanes, or below a bridge.
+fn stands_about(entity: &EntityRef<'_>) -> bool {
+    let is_put = matches!(
+        entity.kind,
+        EntityKind::Bench
+            | EntityKind::Chair
+            | EntityKind::Table
+            | EntityKind::TrashBin
+            | EntityKind::Mailbox
+            | EntityKind::Cone
+            | EntityKind::Prop
+    );
+    is_put && entity.is_solid() && entity.attachment.is_none()
 }
 
 /// Whether an entity is a parked vehicle: it keeps within its parking lane, where nobody drives.

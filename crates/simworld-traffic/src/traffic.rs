@@ -320,6 +320,11 @@ impl Traffic {
         self.update_signals(dt);
     }
 
+    /// Whether a body reaches into what vehicles sweep.
+    pub(crate) fn is_in_the_way(&self, body: &Foreign) -> bool {
+        body.is_sound() && self.finder.is_in_the_way(&self.tracks, body)
+    }
+
     fn update_vehicles(&mut self, dt: f64) {
         let State { vehicles, demand, pedestrians, counters, shown, seconds, steps, .. } = &mut self.state;
         vehicles.entered.clear();

@@ -3,7 +3,7 @@
 use simworld_core::action::Action;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
-use simworld_core::seam::{Goal, PlanStep};
+use simworld_core::seam::{Condition, Goal, PlanStep, Which};
 
 /// The steps, a line each, numbered; blocks are indented.
 pub fn steps_in_words(world: &World, steps: &[PlanStep]) -> Vec<String> {
@@ -39,10 +39,52 @@ pub fn step_in_words(world: &World, step: &PlanStep) -> String {
         PlanStep::Point { at } => format!("point at {}", place(at)),
         PlanStep::Wait { seconds } => format!("wait {seconds} s"),
         PlanStep::Act(action) => action_in_words(world, action),
-        PlanStep::If { condition, .. } => format!("if {condition:?}"),
+        PlanStep::If { condition, .. } => format!("if {}:", condition_in_words(world, condition)),
         PlanStep::Repeat { times, .. } => format!("{times} times:"),
-        PlanStep::Until { condition, steps } if steps.is_empty() => format!("wait until {condition:?}"),
-        PlanStep::Until { condition, .. } => format!("until {condition:?}:"),
+        PlanStep::Until { condition, steps } if steps.is_empty() => {
+            format!("wait until {}", condition_in_words(world, condition))
+        }
+        PlanStep::Until { condition, .. } => format!("until {}:", condition_in_words(world, condition)),
+        other => format!("{other:?}"),
+    }
+}
+
+/// What is looked at, in words.
+fn condition_in_words(world: &World, condition: &Condition) -> String {
+    let which = |which: &Which| match which {
+        Which::Entity(id) => name(world, *id),
+        Which::Any { kinds, place } => {
+            let kinds = kinds.iter().map(ToString::to_string);
+            let places = place.iter().map(ToString::to_string);
+            kinds.chain(places).collect::<Vec<_>>().join(" or ")
+        }
+        other => format!("{other:?}"),
+    };
+    let all = |parts: &[Condition], joint: &str| {
+        parts.iter().map(|part| condition_in_words(world, part)).collect::<Vec<_>>().join(joint)
+    };
+    match condition {
+        Condition::Signal { light, shows } => {
+            format!("{} is {}", name(world, *light), format!("{shows:?}").to_lowercase())
+        }
+        Condition::Sees(what) => format!("{} is in sight", which(what)),
+        Condition::Near { what, within } => format!("{} is within {within} m", which(what)),
+        Condition::FreeNear { what, within } => format!("{} is free within {within} m", which(what)),
+        Condition::InUse(id) => format!("{} is taken", name(world, *id)),
+        Condition::Open(id) => format!("{} is open", name(world, *id)),
+        Condition::Holds(Some(id)) => format!("{} is in hand", name(world, *id)),
+        Condition::Holds(None) => "anything is in hand".to_owned(),
+        Condition::Seated => "seated".to_owned(),
+        Condition::Raining => "it rains".to_owned(),
+        Condition::Snowing => "it snows".to_owned(),
+        Condition::Dark => "it is dark".to_owned(),
+        Condition::Elapsed(seconds) => format!("{seconds} s have passed"),
+        Condition::Not(inner) => format!("not: {}", condition_in_words(world, inner)),
+        Condition::All(parts) => all(parts, " and "),
+        Condition::Any(parts) => all(parts, " or "),
+        Condition::Together { one, other, within } => {
+            format!("{} and {} are within {within} m", name(world, *one), name(world, *other))
+        }
         other => format!("{other:?}"),
     }
 }

@@ -19,7 +19,7 @@ const SMALL_TALK: &Phrases = &Phrases::of(&[
     "were leaving now", "we should be off", "we must be off", "we ought to be off", "wed better be off", "we are off", "time to leave", "its time to leave", "time to go", "its time to go", "we should be going", "we should get going", "somebody must be missing it", "someone must be missing it",
     "somebody must have lost it", "someone must have lost it", "somebody must have forgotten it", "someone must have forgotten it", "somebody left it behind", "someone left it behind",
     "somebody left it there", "someone left it there", "somebody forgot it", "someone forgot it", "everybody is ready", "everyone is ready", "everything is ready", "we are all ready",
-    "the rain has stopped", "the rain stopped", "it has stopped raining", "its stopped raining", "it stopped raining", "the sun is out", "the sun has come out", "to be honest", "to be fair", "to be frank", "to tell the truth", "to tell you the truth", "truth be told", "poor boy", "poor girl", "poor thing",
+    "the rain has stopped", "the rain stopped", "it has stopped raining", "its stopped raining", "it stopped raining", "the sun is out", "the sun has come out", "give me a moment", "give me a second", "give me a minute", "give us a moment", "hang on", "hang on a second", "hang on a moment", "to be honest", "to be fair", "to be frank", "to tell the truth", "to tell you the truth", "truth be told", "poor boy", "poor girl", "poor thing",
     "poor soul", "poor fellow", "bless him", "bless her", "the view must be better there", "the view is better there", "it must be nicer there", "it is nicer there", "its nicer there",
 ]);
 /// What one says to somebody before small talk, with or without a pause.
@@ -51,6 +51,7 @@ pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
         without_tags(lexemes, text);
     }
     without_small_talk(lexemes);
+    without_a_look(lexemes);
     let mut at = 0;
     while at < lexemes.len() {
         match &lexemes[at].token {
@@ -99,6 +100,18 @@ fn without_small_talk(lexemes: &mut Vec<Lexeme>) {
             }
             _ => at += 1,
         }
+    }
+}
+
+/// "Look, somebody forgot the bucket!": nobody is told to look at anything.
+fn without_a_look(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const SOMEBODY: &[&str] = &[
+        "somebody", "someone", "nobody", "everybody", "everyone", "there", "theres", "i", "im", "ive", "its", "he", "hes", "she", "shes", "we", "weve", "they", "theyre",
+    ];
+    let calls = ["look", "listen"].contains(&word_at(lexemes, 0)) && lexemes.get(1).is_some_and(is_mark);
+    if calls && SOMEBODY.contains(&word_at(lexemes, 2)) {
+        lexemes.drain(..2);
     }
 }
 

@@ -10,7 +10,7 @@ use super::verbs::base_form;
 /// A word and the plain words for it; none where it says nothing.
 #[rustfmt::skip]
 const PLAIN: &[(&str, &str)] = &[
-    ("pleas", "please"), ("upp", "up"), ("att", "at"), ("onn", "on"), ("u", "you"), ("ya", "you"), ("yall", "you"), ("ur", "your"), ("yr", "your"), ("n", "and"), ("wanna", "want to"),
+    ("cud", "could"), ("wud", "would"), ("shud", "should"), ("pleas", "please"), ("upp", "up"), ("att", "at"), ("onn", "on"), ("u", "you"), ("ya", "you"), ("yall", "you"), ("ur", "your"), ("yr", "your"), ("n", "and"), ("wanna", "want to"),
     ("gonna", "going to"), ("gotta", "have to"), ("hafta", "have to"), ("oughta", "ought to"), ("lemme", "let me"),
     ("rn", "right now"), ("smth", "something"), ("sth", "something"),
     ("sb", "somebody"), ("bc", "because"), ("cuz", "because"), ("coz", "because"), ("ppl", "people"),

@@ -44,6 +44,18 @@ const CROWDS: &[&str] = &[
     "kids", "children", "visitors", "guests", "customers", "tourists", "passengers", "neighbours", "neighbors", "parents", "students", "fans", "colleagues", "friends",
     "clouds", "birds", "bees", "flies", "folks", "locals", "shoppers", "workers", "players", "spectators", "campers",
 ];
+/// What somebody does now and then, with no thing in particular.
+#[rustfmt::skip]
+const HABITS: &Phrases = &Phrases::of(&[
+    "i collect", "i paint", "i draw", "i sketch", "i study", "i love", "i like", "i adore", "i photograph", "i sell", "i repair", "i write about", "we collect", "we love", "we study",
+    "we like", "we sell", "we repair", "she collects", "he collects", "she loves", "he loves", "she paints", "he paints", "they love", "they collect", "my kids love", "my kids like",
+]);
+/// Before what somebody wants of who hears it, and is then told how.
+#[rustfmt::skip]
+const PICTURE_FOR: &Phrases = &Phrases::of(&[
+    "i want a picture for", "i need a picture for", "i want a photo for", "i need a photo for", "i want pictures for", "i need pictures for", "i need photos for", "we need a picture for",
+    "we want a picture for", "we need photos for", "we need pictures for",
+]);
 /// What nobody is told to do.
 const UNWANTED: &Phrases = &Phrases::of(&[
     "i dont want",
@@ -94,7 +106,7 @@ const CALLS: &Phrases = &Phrases::of(&[
 const CRIES: &Phrases = &Phrases::of(&[
     "so am i", "me too", "same here", "silly man", "silly woman", "silly boy", "silly girl", "my friend", "my friends", "my dear", "my dears", "right in the middle", "i do beg your pardon", "do beg pardon",
     "hi", "hello", "hey", "hiya", "howdy", "morning", "evening", "afternoon", "morning all", "evening all", "hey you", "hello you", "hi there", "okay", "ok", "right", "right then",
-    "well", "well now", "ah", "oh", "hm", "hmm", "er", "erm", "um", "now", "forgot mine", "lost mine", "broke mine", "left mine at home", "oops", "whoops", "ugh", "gosh", "golly", "wow", "phew", "whew", "yikes", "ouch", "whoa", "blimey", "crikey", "hooray", "yay", "brr", "tut tut", "dear me",
+    "well", "well now", "ah", "oh", "hm", "hmm", "er", "erm", "um", "now", "forgot mine", "lost mine", "broke mine", "left mine at home", "yuck", "ew", "eww", "yum", "yummy", "ooh", "aww", "bah", "meh", "gee", "jeez", "sheesh", "shh", "thx a lot", "oops", "whoops", "ugh", "gosh", "golly", "wow", "phew", "whew", "yikes", "ouch", "whoa", "blimey", "crikey", "hooray", "yay", "brr", "tut tut", "dear me",
     "goodness", "goodness me", "good grief", "good heavens", "heavens", "honestly", "frankly", "me again", "its me again", "only me", "quick one", "just a quick one",
     "one more thing", "one last thing", "one more for you", "typical", "typical of him", "typical of her", "typical of them", "lucky you", "lucky me", "lucky us", "lucky him",
     "lucky her", "poor me", "poor you", "just for fun", "for fun", "just for a laugh", "for a laugh", "just for luck", "team", "okay team", "right team", "kiddo", "kids",
@@ -178,6 +190,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
     let unwanted = longest_phrase(clause, UNWANTED).is_some();
     let plans = own_plans(clause) || behind && needs_it(clause);
     let past = behind && tells_what_was(clause);
+    let has_a_habit = longest_phrase(clause, HABITS).is_some();
     let asks = longest_verb(clause).is_some()
         || filler(clause).is_some() && !of_somebody
         || !unwanted && !plans && !requests::beginnings(clause).is_empty();
@@ -191,6 +204,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
                 && !(of_somebody && tells_time(rest))
             || !past
                 && !CROWDS.contains(&word_of(&rest[0]))
+                && !(has_a_habit && is_general(clause, from))
                 && (category(rest).is_some() || names.exact(rest).is_some())
     };
     clause.len() >= 2
@@ -224,9 +238,22 @@ fn is_cry(clause: &[Lexeme], names: &Names<'_>, called_out: bool) -> bool {
             && number(rest).is_none()
     };
     let occasion = clause.last().is_some_and(|last| OCCASIONS.contains(&word_of(last)));
+    let picture = longest_phrase(clause, PICTURE_FOR).is_some()
+        && clause.len() < 9
+        && !(0..clause.len())
+            .any(|at| category(&clause[at..]).is_some() || names.exact(&clause[at..]).is_some());
     let called =
         (called_out || occasion) && (2..=MOST).contains(&clause.len()) && (0..clause.len()).all(bare);
-    !clause.is_empty() && (whole || called)
+    !clause.is_empty() && (whole || called || picture)
+}
+
+/// "I paint trees": all of them, and none that is here.
+fn is_general(clause: &[Lexeme], at: usize) -> bool {
+    let before = at.checked_sub(1).map_or("", |before| word_of(&clause[before]));
+    let of_some = longest_phrase(&clause[at.saturating_sub(1)..], DETERMINERS).is_some();
+    word_of(&clause[at]).ends_with('s')
+        && !of_some
+        && !["red", "blue", "green", "white", "these", "those"].contains(&before)
 }
 
 /// "I need to know if they are full": what who speaks is about to do, and nobody else.

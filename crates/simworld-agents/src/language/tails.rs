@@ -251,6 +251,7 @@ impl Parser<'_> {
                 let (to, pace) = (what.clone(), Pace::Usual);
                 vec![Clause::Go { to, side: None, pace, within: None }]
             }
+            (Some(last @ Clause::Go { .. }), _) => ways_until(clauses, last),
             (last, _) => body_of(last),
         };
         clauses.push(Clause::Until { test, body });
@@ -452,4 +453,15 @@ impl Parser<'_> {
 /// "For ten seconds", behind a comma.
 fn numbers_for(lexemes: &[Lexeme]) -> bool {
     longest_phrase(lexemes, &["for"]).is_some_and(|words| numbers::duration(&lexemes[words..]).is_some())
+}
+
+/// "Go to the anchor and then to the lamp until it rains": from one to the other, for whoever has arrived waits for nothing.
+fn ways_until(clauses: &mut Vec<Clause>, last: Clause) -> Vec<Clause> {
+    let ways = clauses.iter().rev().take_while(|clause| matches!(clause, Clause::Go { .. })).count();
+    if ways == 0 {
+        return body_of(Some(last));
+    }
+    let mut body = clauses.split_off(clauses.len() - ways);
+    body.push(last);
+    body
 }

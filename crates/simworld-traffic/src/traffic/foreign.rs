@@ -174,6 +174,16 @@ impl Finder {
         obstacles.sort_by(|a, b| a.track.cmp(&b.track).then(a.near.total_cmp(&b.near)));
     }
 
+    /// Whether a body reaches into what the broadest vehicle sweeps.
+    pub(super) fn is_in_the_way(&self, tracks: &Tracks, body: &Foreign) -> bool {
+        body.discs().chain(body.corners()).any(|(at, reach)| {
+            self.tracks_at(at).any(|track| {
+                let near = polyline::closest(tracks.path(track), &at);
+                near.is_some_and(|near| near.distance < SWEPT + reach)
+            })
+        })
+    }
+
     /// Counts a person on the crossings where they are; false if that is none.
     fn count_on_crossings(&self, tracks: &Tracks, body: &Foreign, on_crossing: &mut [u32]) -> bool {
         let reach = body.radius.max(body.half_width);

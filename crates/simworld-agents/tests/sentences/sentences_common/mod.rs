@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 23] = [
+const SETS: [&str; 24] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -57,6 +57,7 @@ const SETS: [&str; 23] = [
     "twentyfirst",
     "twentysecond",
     "twentythird",
+    "twentyfourth",
 ];
 
 /// One thing that is said, and what it means.
