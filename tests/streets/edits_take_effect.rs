@@ -4,12 +4,14 @@
 use std::sync::Arc;
 
 use simworld_agents::editing::SceneEditor;
+use simworld_citygen::{City, CityConfig};
 use simworld_core::action::Action;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Point2, Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan, polyline};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
 use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics};
@@ -99,6 +101,43 @@ fn what_stands_beside_the_lanes_changes_nothing() {
         vehicles.map(|entity| entity.position().coords).collect::<Vec<_>>()
     };
     assert_eq!(trail(&[]), trail(&[(60.0, 6.0), (30.0, 114.0), (180.0, 6.5)]));
+}
+
+/// Where the vehicles of a generated city are after a minute.
+fn after_a_minute(seed: Seed, furnished: bool) -> Vec<Point3> {
+    let city = City::generate(&CityConfig::with_roads(60), seed).expect("any seed makes a city");
+    let mut world = World::new();
+    city.populate(&mut world).expect("a city fits into a world");
+    let is_put = |kind: EntityKind| {
+        matches!(
+            kind,
+            EntityKind::Bench
+                | EntityKind::TrashBin
+                | EntityKind::Mailbox
+                | EntityKind::Cone
+                | EntityKind::Prop
+        )
+    };
+    let put: Vec<EntityId> = world.iter().filter(|one| is_put(one.kind)).map(|one| one.id).collect();
+    assert!(put.len() > 20, "the streets are furnished: {}", put.len());
+    if !furnished {
+        put.iter().for_each(|id| drop(world.remove(*id).expect("it is there")));
+    }
+    let config = TrafficConfig { vehicles: 150, pedestrians: 0, ..TrafficConfig::default() };
+    let mut traffic = TrafficDynamics::new(&mut world, &config, seed).expect("sound settings");
+    for _ in 0..600 {
+        world.begin_step();
+        traffic.step(&mut world, 0.1).expect("traffic flows");
+        world.finish_step();
+    }
+    traffic.traffic().vehicles().map(|body| Point3::from(body.pose.translation.vector)).collect()
+}
+
+#[test]
+fn the_furniture_of_a_city_is_in_nobodys_way() {
+    for seed in [Seed(1), Seed(2), Seed(3)] {
+        assert_eq!(after_a_minute(seed, true), after_a_minute(seed, false), "{seed:?}");
+    }
 }
 
 #[test]

@@ -52,6 +52,7 @@ pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
     }
     without_small_talk(lexemes);
     without_a_look(lexemes);
+    without_asking_for_a_nod(lexemes);
     let mut at = 0;
     while at < lexemes.len() {
         match &lexemes[at].token {
@@ -61,6 +62,9 @@ pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
             }
             Token::Word(word) if word == "happen" || word == "happens" => happens(lexemes, at),
             Token::Word(word) if word == "from" || word == "to" => from_you(lexemes, at),
+            Token::Word(word) if word == "get" && word_at(lexemes, at + 1) == "between" => {
+                put_words(lexemes, at, at + 1, &["go"]);
+            }
             _ => {}
         }
         at += 1;
@@ -100,6 +104,24 @@ fn without_small_talk(lexemes: &mut Vec<Lexeme>) {
             }
             _ => at += 1,
         }
+    }
+}
+
+/// "These bags weigh a ton, you know. Sit down": what is said at the end of a sentence and means nothing.
+fn without_asking_for_a_nod(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const NODDED: &Phrases = &Phrases::of(&[
+        "you know", "you see", "i believe", "i suppose", "i guess", "i think", "mind you", "innit", "ha", "haha", "lol", "eh", "i tell you", "believe me", "isnt it", "wasnt it", "arent they",
+        "werent they", "isnt he", "isnt she", "doesnt it", "dont they", "havent they", "hasnt it", "is not it", "was not it", "are not they",
+    ]);
+    let mut at = 1;
+    while at + 1 < lexemes.len() {
+        let words = longest_phrase(&lexemes[at + 1..], NODDED).unwrap_or(0);
+        let ends = words > 0 && lexemes.get(at + 1 + words).is_some_and(|end| end.token == Token::Break);
+        if lexemes[at].token == Token::Comma && ends {
+            lexemes.drain(at..at + 1 + words);
+        }
+        at += 1;
     }
 }
 
@@ -227,6 +249,9 @@ mod tests {
             ("the bench farthest from where you are standing now", "the bench farthest from you"),
             ("turn left, right, left", "turn left , right , left"),
             ("go to where you are now", "go to where you are now"),
+            ("these bags weigh a ton, you know. Sit down", "these bags weigh a ton , sit down"),
+            ("the forecast was awful, wasn't it. Sit down", "the forecast was awful , sit down"),
+            ("turn left, you know", "turn left , you know"),
             ("Hi we have to leave now, get into the red car", "hi get into the red car"),
         ] {
             assert_eq!(rewritten(said, |lexemes| plainly(lexemes, said)), plain, "{said}");

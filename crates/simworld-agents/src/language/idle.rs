@@ -106,7 +106,7 @@ const CALLS: &Phrases = &Phrases::of(&[
 const CRIES: &Phrases = &Phrases::of(&[
     "so am i", "me too", "same here", "silly man", "silly woman", "silly boy", "silly girl", "my friend", "my friends", "my dear", "my dears", "right in the middle", "i do beg your pardon", "do beg pardon",
     "hi", "hello", "hey", "hiya", "howdy", "morning", "evening", "afternoon", "morning all", "evening all", "hey you", "hello you", "hi there", "okay", "ok", "right", "right then",
-    "well", "well now", "ah", "oh", "hm", "hmm", "er", "erm", "um", "now", "forgot mine", "lost mine", "broke mine", "left mine at home", "yuck", "ew", "eww", "yum", "yummy", "ooh", "aww", "bah", "meh", "gee", "jeez", "sheesh", "shh", "thx a lot", "oops", "whoops", "ugh", "gosh", "golly", "wow", "phew", "whew", "yikes", "ouch", "whoa", "blimey", "crikey", "hooray", "yay", "brr", "tut tut", "dear me",
+    "well", "well now", "ah", "oh", "hm", "hmm", "er", "erm", "um", "now", "forgot mine", "lost mine", "broke mine", "left mine at home", "yuck", "ew", "eww", "yum", "yummy", "ooh", "aww", "bah", "meh", "gee", "jeez", "sheesh", "shh", "thx a lot", "testing", "testing testing", "holidays at last", "thirsty work", "thirsty work this", "hard work this", "miss", "sir", "madam", "mister", "mate", "love", "dear", "pal", "buddy", "oops", "whoops", "ugh", "gosh", "golly", "wow", "phew", "whew", "yikes", "ouch", "whoa", "blimey", "crikey", "hooray", "yay", "brr", "tut tut", "dear me",
     "goodness", "goodness me", "good grief", "good heavens", "heavens", "honestly", "frankly", "me again", "its me again", "only me", "quick one", "just a quick one",
     "one more thing", "one last thing", "one more for you", "typical", "typical of him", "typical of her", "typical of them", "lucky you", "lucky me", "lucky us", "lucky him",
     "lucky her", "poor me", "poor you", "just for fun", "for fun", "just for a laugh", "for a laugh", "just for luck", "team", "okay team", "right team", "kiddo", "kids",
@@ -190,6 +190,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
     let unwanted = longest_phrase(clause, UNWANTED).is_some();
     let plans = own_plans(clause) || behind && needs_it(clause);
     let past = behind && tells_what_was(clause);
+    let exclaims = longest_phrase(clause, &["what a", "what an", "such a", "such an"]).is_some();
     let has_a_habit = longest_phrase(clause, HABITS).is_some();
     let asks = longest_verb(clause).is_some()
         || filler(clause).is_some() && !of_somebody
@@ -205,6 +206,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
             || !past
                 && !CROWDS.contains(&word_of(&rest[0]))
                 && !(has_a_habit && is_general(clause, from))
+                && !exclaims
                 && (category(rest).is_some() || names.exact(rest).is_some())
     };
     clause.len() >= 2
@@ -212,6 +214,15 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
         && tells
         && !asks
         && !(0..clause.len()).any(speaks_of_something)
+}
+
+/// "The coffee here used to be better": one sentence of how something was, and nothing else.
+pub(super) fn tells_how_it_was(lexemes: &[Lexeme]) -> bool {
+    let used_to = |at: usize| longest_phrase(&lexemes[at..], &["used to be"]).is_some();
+    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+    longest_phrase(lexemes, DETERMINERS).or(longest_phrase(lexemes, SOMEBODY)).is_some()
+        && !lexemes[..end].iter().any(is_mark)
+        && (1..end).any(used_to)
 }
 
 /// Whether the sentence that begins here is called out.

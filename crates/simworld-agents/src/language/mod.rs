@@ -219,6 +219,14 @@ impl GrammarPlanner {
             fractions::in_one(&mut lexemes);
             chatter::plainly(&mut lexemes, words);
             in_turn::told_one_by_one(&mut lexemes);
+            if idle::tells_how_it_was(&lexemes) {
+                let hint = "that is how it was: say what is to be done".to_owned();
+                return Err(PlanError::NotUnderstood {
+                    words: shortened(words),
+                    fragment: shortened(words),
+                    hint,
+                });
+            }
             let said = repairs::mend(&mut lexemes);
             read(words, lexemes, names, view).or_else(|refused| match said {
                 Some(said) if !understood(&refused) => read(words, said, names, view).or(Err(refused)),

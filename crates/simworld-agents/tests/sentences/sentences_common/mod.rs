@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 24] = [
+const SETS: [&str; 25] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -58,6 +58,7 @@ const SETS: [&str; 24] = [
     "twentysecond",
     "twentythird",
     "twentyfourth",
+    "twentyfifth",
 ];
 
 /// One thing that is said, and what it means.
