@@ -115,7 +115,7 @@ const SO: &Phrases = &Phrases::of(&[
     "if thats the case",
 ]);
 #[rustfmt::skip]
-const NOT_SO: &Phrases = &Phrases::of(&[
+pub(super) const NOT_SO: &Phrases = &Phrases::of(&[
     "if not", "if it isnt", "if it is not", "if its not", "if no", "if there isnt", "if there is not",
     "if he isnt", "if she isnt", "if it doesnt", "if you dont", "if you cant", "if you havent", "no",
     "if none", "otherwise",

@@ -2,7 +2,7 @@
 
 use simworld_core::seam::PlanError;
 
-use super::blocks::{IF, UNLESS, UNTIL, WHILE};
+use super::blocks::{IF, NOT_SO, UNLESS, UNTIL, WHILE};
 use super::clause::{Clause, Pace, Target, Test};
 use super::deferred::first_and_later;
 use super::lexer::{Lexeme, Token};
@@ -99,7 +99,13 @@ impl Parser<'_> {
                 ],
             )
             .is_some();
-        longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after) || earlier
+        // "If you see Rex, follow him, but if you don't, go home": what is done otherwise, and no condition of the following.
+        let contrary = longest_phrase(after, &["but", "and"]).and_then(|but| {
+            let words = longest_phrase(&after[but..], NOT_SO)?;
+            after.get(but + words).map(|mark| mark.token == Token::Comma)
+        });
+        contrary != Some(true)
+            && (longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after) || earlier)
     }
 
     /// "Close the door when you've bought the bread": what comes first is said behind.

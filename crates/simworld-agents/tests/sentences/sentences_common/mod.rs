@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 25] = [
+const SETS: [&str; 26] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -59,6 +59,7 @@ const SETS: [&str; 25] = [
     "twentythird",
     "twentyfourth",
     "twentyfifth",
+    "twentysixth",
 ];
 
 /// One thing that is said, and what it means.
