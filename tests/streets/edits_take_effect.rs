@@ -121,7 +121,9 @@ fn after_a_minute(seed: Seed, furnished: bool) -> Vec<Point3> {
     let put: Vec<EntityId> = world.iter().filter(|one| is_put(one.kind)).map(|one| one.id).collect();
     assert!(put.len() > 20, "the streets are furnished: {}", put.len());
     if !furnished {
-        put.iter().for_each(|id| drop(world.remove(*id).expect("it is there")));
+        for id in put {
+            world.remove(id).expect("it is there");
+        }
     }
     let config = TrafficConfig { vehicles: 150, pedestrians: 0, ..TrafficConfig::default() };
     let mut traffic = TrafficDynamics::new(&mut world, &config, seed).expect("sound settings");

@@ -129,7 +129,7 @@ impl Parser<'_> {
     }
 
     /// "The third from the west": from which end one counts.
-    pub(super) fn from_the_compass(&mut self) -> Option<Compass> {
+    pub(super) fn end_by_the_compass(&mut self) -> Option<Compass> {
         let start = self.at;
         let begins = self.eat_any(&["from the", "counting from the", "counted from the", "from"]);
         let compass = if begins { longest(self.rest(), DIRECTIONS) } else { None };

@@ -195,6 +195,15 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
     let asks = longest_verb(clause).is_some()
         || filler(clause).is_some() && !of_somebody
         || !unwanted && !plans && !requests::beginnings(clause).is_empty();
+    let means_none = |from: usize| {
+        past || exclaims
+            || CROWDS.contains(&word_of(&clause[from]))
+            || has_a_habit && is_general(clause, from)
+    };
+    let names_something = |from: usize| {
+        let rest = &clause[from..];
+        !means_none(from) && (category(rest).is_some() || names.exact(rest).is_some())
+    };
     let speaks_of_something = |from: usize| {
         let rest = &clause[from..];
         !unwanted && !plans && longest_phrase(rest, DEMANDS).is_some()
@@ -203,11 +212,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>, behind: bool) -> bool {
             || longest(rest, PAINTS).is_some()
             || number(rest).is_some_and(|(number, _)| (number - 1.0).abs() > f64::EPSILON)
                 && !(of_somebody && tells_time(rest))
-            || !past
-                && !CROWDS.contains(&word_of(&rest[0]))
-                && !(has_a_habit && is_general(clause, from))
-                && !exclaims
-                && (category(rest).is_some() || names.exact(rest).is_some())
+            || names_something(from)
     };
     clause.len() >= 2
         && clause.iter().all(|lexeme| matches!(lexeme.token, Token::Word(_) | Token::Number(_)))

@@ -43,7 +43,7 @@ impl Parser<'_> {
             return true;
         }
         if let Choice::Nth(nth) = reference.choice
-            && let Some(compass) = self.from_the_compass()
+            && let Some(compass) = self.end_by_the_compass()
         {
             (reference.choice, reference.place) = (Choice::Compass(compass), nth);
             return true;
