@@ -1,6 +1,6 @@
 //! What people ask of the scene in four cities: carried out, judged from outside, and scored by family.
 //!
-//! The sentences in `tests/edits` were written before the grammar that reads them. The judge compares the world before and
+//! The sentences in `tests/edits` were written by strangers to the grammar that reads them, but for the first. The judge compares the world before and
 //! after: the relation that was asked for holds, nothing else changed, nothing floats or runs into another thing.
 
 use std::collections::BTreeMap;
