@@ -10,7 +10,7 @@ use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
 use simworld_core::traffic::RoadLeg;
 
 /// How far above what holds it up a thing may be, or sunk into it, m.
-const SUPPORT_GAP: f64 = 0.05;
+pub(super) const SUPPORT_GAP: f64 = 0.05;
 /// Bodies that share less than this in height or width touch, m.
 const TOUCH: f64 = 2e-3;
 
@@ -132,23 +132,30 @@ fn span(own: &Obb) -> (f64, f64) {
     (middle - own.half_extents.z, middle + own.half_extents.z)
 }
 
-/// How far a thing is above the land, m; below zero it is sunk in. What has a level base is looked at under its middle and its four
-/// corners, of which the worst counts; what goes on legs or is let into the ground under its middle.
-fn land_gap(land: &Ground, thing: &EntityRef<'_>, own: &Obb) -> f64 {
-    let (low, _) = span(own);
-    let middle = low - land.height(thing.planar());
-    let is_let_in = matches!(
-        thing.kind,
-        EntityKind::Building
+/// Whether it stands on land that slopes without a level base: on legs, on roots, on a post that is let into the ground, or on
+/// foundations. All else stands on its corners.
+pub(super) const fn finds_footing(kind: EntityKind) -> bool {
+    matches!(
+        kind,
+        EntityKind::Person
+            | EntityKind::Dog
+            | EntityKind::Robot
             | EntityKind::Tree
             | EntityKind::Shrub
             | EntityKind::StreetLamp
             | EntityKind::TrafficSignal
             | EntityKind::Sign
             | EntityKind::Hydrant
-    );
-    let has_legs = matches!(thing.kind, EntityKind::Person | EntityKind::Dog | EntityKind::Robot);
-    if is_let_in || has_legs {
+            | EntityKind::Building
+    )
+}
+
+/// How far a thing is above the land, m; below zero it is sunk in. What has a level base is looked at under its middle and its four
+/// corners, of which the worst counts; what [finds its footing](finds_footing) under its middle.
+fn land_gap(land: &Ground, thing: &EntityRef<'_>, own: &Obb) -> f64 {
+    let (low, _) = span(own);
+    let middle = low - land.height(thing.planar());
+    if finds_footing(thing.kind) {
         return middle;
     }
     let gaps = own.footprint().map(|corner| low - land.height(corner));

@@ -10,6 +10,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
 use simworld_core::seed::{Stream, StreamRng};
 
+use super::check::{SUPPORT_GAP, finds_footing};
 use super::edit::Stand;
 use super::land::Streets;
 use super::sample::{Item, Sampler, Spot};
@@ -345,26 +346,6 @@ fn carries(anchor: &simworld_core::scene::EntityRef<'_>, solid: &Solid) -> bool 
 
 /// Nothing is set down where it is steeper, rise over run: dry wood on grass slides from 0.35 on.
 const STANDS_ON: f64 = 0.35;
-/// What stands upright may be so far above the land under any of its corners, or below it, m.
-const SUPPORT_GAP: f64 = 0.05;
-
-/// Whether it stands on land that slopes without a level base: on legs, on roots, on a post that is let into the ground, or on
-/// foundations. All else stands on its corners.
-const fn finds_footing(kind: EntityKind) -> bool {
-    matches!(
-        kind,
-        EntityKind::Person
-            | EntityKind::Dog
-            | EntityKind::Robot
-            | EntityKind::Tree
-            | EntityKind::Shrub
-            | EntityKind::StreetLamp
-            | EntityKind::TrafficSignal
-            | EntityKind::Sign
-            | EntityKind::Hydrant
-            | EntityKind::Building
-    )
-}
 
 /// The least and the greatest height of the land that a thing stands on, m.
 fn under(land: &Ground, kind: EntityKind, solid: &Solid) -> (f64, f64) {

@@ -96,7 +96,7 @@ pub struct RuleExecutor {
     ways: Option<Arc<WaypointGraph>>,
     state: State,
     /// Why it goes on otherwise than before, told in the step in which that is so.
-    rerouted: Option<String>,
+    rerouted: Option<&'static str>,
 }
 
 /// Everything that a snapshot holds.
@@ -251,7 +251,7 @@ impl RuleExecutor {
     fn told(&mut self, progress: Progress, begun: Option<PlanStep>) -> Progress {
         match (progress, begun, self.rerouted.take()) {
             (Progress::Running, Some(step), _) => Progress::Begun { step: Box::new(step) },
-            (Progress::Running, None, Some(reason)) => Progress::Rerouted { reason },
+            (Progress::Running, None, Some(reason)) => Progress::Rerouted { reason: reason.to_owned() },
             (progress, ..) => progress,
         }
     }

@@ -116,9 +116,10 @@ fn without_asking_for_a_nod(lexemes: &mut Vec<Lexeme>) {
     ]);
     let mut at = 1;
     while at + 1 < lexemes.len() {
-        let words = longest_phrase(&lexemes[at + 1..], NODDED).unwrap_or(0);
-        let ends = words > 0 && lexemes.get(at + 1 + words).is_some_and(|end| end.token == Token::Break);
-        if lexemes[at].token == Token::Comma && ends {
+        if lexemes[at].token == Token::Comma
+            && let Some(words) = longest_phrase(&lexemes[at + 1..], NODDED)
+            && lexemes.get(at + 1 + words).is_some_and(|end| end.token == Token::Break)
+        {
             lexemes.drain(at..at + 1 + words);
         }
         at += 1;

@@ -21,6 +21,9 @@ const FIRST: &[&str] = &["first", "start", "starting", "begin", "beginning"];
 
 /// Puts each of them in its turn in the place of all and the list behind.
 pub(super) fn told_one_by_one(lexemes: &mut Vec<Lexeme>) {
+    if !lexemes.iter().any(|lexeme| lexeme.token == Token::Comma) {
+        return; // as most sentences
+    }
     let found = (0..lexemes.len()).find_map(|at| Some((at, turns_at(&lexemes[at..])?)));
     let Some((at, (words, end))) = found else { return };
     let lexeme = lexemes[at].clone();

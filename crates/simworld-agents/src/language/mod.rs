@@ -184,7 +184,7 @@ impl Planner for GrammarPlanner {
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
         let view = View { speaker: self.speaker, ..View::new(scene, &me, self.policy) };
         let names = Names::new(scene, me.planar(), RANGE);
-        let mut clauses = match intent {
+        let clauses = match intent {
             Intent::Words(words) if words.chars().count() > LONGEST_SENTENCE => {
                 let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
                 return Err(PlanError::NotUnderstood {
@@ -197,9 +197,6 @@ impl Planner for GrammarPlanner {
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
             Intent::Plan(_) | Intent::Act(_) => return Ok(intent.ready().unwrap_or_default()),
         };
-        if let Intent::Words(words) = intent {
-            enumerated::once_each(&mut clauses, words);
-        }
         let mut draft = Draft::new(view, &me);
         draft.add_all(&clauses)?;
         Ok(draft.finish())
@@ -233,10 +230,12 @@ impl GrammarPlanner {
                 _ => Err(refused),
             })
         };
-        heard(words).or_else(|refused| match hearing::pausing(words) {
+        let mut clauses = heard(words).or_else(|refused| match hearing::pausing(words) {
             Some(paused) if !understood(&refused) => heard(&paused).or(Err(refused)),
             _ => Err(refused),
-        })
+        })?;
+        enumerated::once_each(&mut clauses, words);
+        Ok(clauses)
     }
 }
 

@@ -146,7 +146,7 @@ impl RuleExecutor {
         };
         let arrival = begun.and_then(|mut way| {
             let there = self.follow_lane(scene, vehicle, &own, &mut way, speed, out)?;
-            self.rerouted = way.news.take().map(str::to_owned);
+            self.rerouted = way.news.take();
             self.state.stage = Stage::Driving(way);
             Ok(there)
         });

@@ -30,7 +30,7 @@ impl RuleExecutor {
         match way.jams % 3 {
             2 if !way.crossing_begun && way.lead_round(scene, me) => {
                 way.evading = 0.0;
-                self.rerouted = Some("it goes round what stands in the way".to_owned());
+                self.rerouted = Some("it goes round what stands in the way");
             }
             0 => self.take_another_way(scene, me, way),
             _ => {}
@@ -50,7 +50,7 @@ impl RuleExecutor {
         let legs = self.find_way(scene, me, way.goal, &shut);
         let (stuck, jams) = (way.stuck, way.jams);
         *way = Navigation { stuck, jams, shut, ..Navigation::along(legs, way.goal) };
-        self.rerouted = Some("it was stuck, and looks for another way".to_owned());
+        self.rerouted = Some("it was stuck, and looks for another way");
     }
 }
 
