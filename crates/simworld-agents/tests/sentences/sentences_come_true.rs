@@ -8,6 +8,7 @@ use crate::sentences_common::outcome::{carry_out, shows};
 use crate::sentences_common::{PLACES, Said, Verdict, said_in, understand, verdict};
 use simworld_agents::language::GrammarPlanner;
 use simworld_core::scene::{LOCKED, Scene};
+use simworld_core::seam::{Plan, PlanStep};
 use simworld_core::value::Value;
 
 /// One of so many sentences is carried out where not all are.
@@ -89,11 +90,26 @@ fn effects(meaning: &str, city: &City) -> Vec<String> {
         if door.is_some_and(|door| door.info.attributes.get(LOCKED) == Some(&Value::Bool(true))) {
             return vec!["fails locked".to_owned()];
         }
+        // A hand holds one thing: who was given one already cannot take the next.
+        let has_one = |to: &str| left.facts.iter().any(|fact| fact.starts_with(&format!("gave {to} ")));
+        if step.strip_prefix("give ").is_some_and(has_one) {
+            return vec!["fails cannot take it".to_owned()];
+        }
         if !left.after(step) {
             return Vec::new();
         }
     }
     left.facts()
+}
+
+/// How near the last way of a plan leads, m, where that is farther off than anybody stands who has come to a thing ("within five metres of
+/// the statue").
+fn how_near(plan: &Plan) -> Option<f64> {
+    let within = plan.steps.iter().rev().find_map(|step| match step {
+        PlanStep::Navigate { within, .. } => Some(*within),
+        _ => None,
+    });
+    within.filter(|within| *within > 2.0)
 }
 
 /// What is wrong after the sentence was carried out; `None` if it leaves nothing that could be looked for.
@@ -104,9 +120,11 @@ fn faults_of(city: &City, said: &Said) -> Option<Vec<String>> {
         return None;
     }
     let plan = understand(&GrammarPlanner::default(), city, said).ok()?;
+    let reach = how_near(&plan);
     let (simulation, ended) = carry_out(city.world.clone(), city.me, plan);
     let missing = expected.iter().filter_map(|fact| {
-        let found = shows(city, fact, &simulation, &ended).err()?;
+        let afar = reach.filter(|_| fact.starts_with("at ")).map(|reach| format!("{fact} {reach}"));
+        let found = shows(city, afar.as_ref().unwrap_or(fact), &simulation, &ended).err()?;
         Some(format!("{:?} should leave {fact:?}, and left {found:?}", said.words))
     });
     Some(missing.collect())

@@ -78,11 +78,14 @@ pub(crate) fn shows(
         }
         "open" if is_open(object) => object.to_owned(),
         "closed" if !is_open(object) => object.to_owned(),
+        // "At x", or so many metres off: "at x 5".
         "at" => {
-            let (me, thing) = (world.entity(city.me).unwrap(), world.entity(city.ids[object]).unwrap());
+            let (thing, reach) = object.split_once(' ').unwrap_or((object, "2"));
+            let (me, thing) = (world.entity(city.me).unwrap(), world.entity(city.ids[thing]).unwrap());
+            let reach: f64 = reach.parse().expect("a distance is a number");
             let to_access = (thing.access().xy() - me.planar()).norm();
             let distance = thing.info.shape.planar_distance(thing.pose, &me.planar()).min(to_access);
-            if distance <= 2.0 { object.to_owned() } else { format!("{distance:.1} m away from {object}") }
+            if distance <= reach { object.to_owned() } else { format!("{distance:.1} m away from {object}") }
         }
         _ => "otherwise".to_owned(),
     };
