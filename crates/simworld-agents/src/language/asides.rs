@@ -271,6 +271,16 @@ pub(super) fn says_what_is(said: &[Lexeme]) -> bool {
         && !asks(said)
 }
 
+/// Whether a verb in a form that orders nothing stands in the words, behind who it is about.
+pub(super) fn states_something(said: &[Lexeme]) -> bool {
+    longest_phrase(said, SUBJECTS).is_some() && has_finite(said) && longest_verb(said).is_none()
+}
+
+/// Whether a word is such a form.
+pub(super) fn is_finite(word: &str) -> bool {
+    FINITE.contains(&word)
+}
+
 fn is_question(said: &[Lexeme]) -> bool {
     let about_you = said.iter().take(3).any(|lexeme| ["you", "we"].contains(&word_of(lexeme)));
     longest_phrase(said, QUESTIONS).is_some() && !about_you && !asks(said)

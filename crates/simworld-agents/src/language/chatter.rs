@@ -2,7 +2,7 @@
 //! know, go", "if you happen to be sitting", "farthest from where you are standing now".
 
 use super::lexer::{Lexeme, Token, is_mark};
-use super::lexicon::longest_phrase;
+use super::lexicon::{FARTHEST, MOSTS, NEAREST, longest, longest_phrase};
 use super::phrases::Phrases;
 
 /// What is said while one thinks of the next word.
@@ -49,6 +49,7 @@ const WHERE_YOU_ARE: &Phrases = &Phrases::of(&[
 pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
     if text.contains('?') {
         without_tags(lexemes, text);
+        which_one(lexemes);
     }
     without_small_talk(lexemes);
     without_a_look(lexemes);
@@ -124,6 +125,29 @@ fn without_asking_for_a_nod(lexemes: &mut Vec<Lexeme>) {
         }
         at += 1;
     }
+}
+
+/// "Which boat is nearest the shop? Go to that one": the one that is asked for.
+fn which_one(lexemes: &mut Vec<Lexeme>) {
+    const MOST: usize = 3;
+    let Some(end) = lexemes.iter().position(|lexeme| lexeme.token == Token::Break) else { return };
+    let Some(which) = (0..end).find(|at| word_at(lexemes, *at) == "which") else { return };
+    let is = (which + 2..end.min(which + 2 + MOST)).find(|at| word_at(lexemes, *at) == "is");
+    let Some(is) = is.filter(|_| end + 1 < lexemes.len() && (which == 0 || is_mark(&lexemes[which - 1])))
+    else {
+        return;
+    };
+    let from = is + 1 + usize::from(word_at(lexemes, is + 1) == "the");
+    let rest = &lexemes[from..end];
+    let most = longest_phrase(rest, NEAREST)
+        .or_else(|| longest_phrase(rest, FARTHEST))
+        .or_else(|| longest(rest, MOSTS).map(|(_, words)| words));
+    let Some(most) = most else { return };
+    let noun = &lexemes[which + 1..is];
+    let the = Lexeme { token: Token::Word("the".to_owned()), lemma: None, ..lexemes[which].clone() };
+    // "The nearest boat", "the boat nearest the shop".
+    let told = if from + most == end { [&[the], rest, noun].concat() } else { [&[the], noun, rest].concat() };
+    lexemes.splice(which..end, told);
 }
 
 /// "Look, somebody forgot the bucket!": nobody is told to look at anything.
@@ -248,6 +272,8 @@ mod tests {
             ("if you happen to be sitting", "if you are sitting"),
             ("if it happens to be raining", "if it is raining"),
             ("the bench farthest from where you are standing now", "the bench farthest from you"),
+            ("Which boat is nearest the shop? Go to it", "the boat nearest the shop , go to it"),
+            ("Which tree is the tallest? Go to it", "the tallest tree , go to it"),
             ("turn left, right, left", "turn left , right , left"),
             ("go to where you are now", "go to where you are now"),
             ("these bags weigh a ton, you know. Sit down", "these bags weigh a ton , sit down"),

@@ -1,6 +1,6 @@
 //! Several of a sort, and then in which turn: "point at both canoes, red first, yellow second", "the two cars, the red one first".
 
-use super::lexer::{Lexeme, Token, word_of};
+use super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::lexicon::longest;
 use super::paint::PAINTS;
 use super::verbs::base_form;
@@ -21,7 +21,7 @@ const FIRST: &[&str] = &["first", "start", "starting", "begin", "beginning"];
 
 /// Puts each of them in its turn in the place of all and the list behind.
 pub(super) fn told_one_by_one(lexemes: &mut Vec<Lexeme>) {
-    if !lexemes.iter().any(|lexeme| lexeme.token == Token::Comma) {
+    if !lexemes.iter().rev().skip(1).any(is_mark) {
         return; // as most sentences
     }
     let found = (0..lexemes.len()).find_map(|at| Some((at, turns_at(&lexemes[at..])?)));
@@ -38,12 +38,14 @@ pub(super) fn told_one_by_one(lexemes: &mut Vec<Lexeme>) {
 /// The same in plain words, and how many lexemes they stand for; none if no such list begins here.
 fn turns_at(lexemes: &[Lexeme]) -> Option<(Vec<String>, usize)> {
     let (count, words) = longest(lexemes, COUNTS)?;
-    let comma = lexemes.iter().position(|lexeme| lexeme.token == Token::Comma)?;
+    let comma = lexemes.iter().position(is_mark)?;
     let nouns = lexemes.get(words..comma).filter(|nouns| (1..=2).contains(&nouns.len()))?;
     let noun = nouns.iter().map(word_of).collect::<Vec<_>>();
     let (last, before) = noun.split_last()?;
     let one = [before.iter().map(|word| (*word).to_owned()).collect(), vec![singular(last)?]].concat();
-    let end = lexemes.iter().position(|lexeme| lexeme.token == Token::Break).unwrap_or(lexemes.len());
+    // "Both barrels: blue, then red", "both cars. Start with the red one".
+    let ends = |lexeme: &Lexeme| lexeme.token == Token::Break;
+    let end = lexemes[comma + 1..].iter().position(ends).map_or(lexemes.len(), |end| comma + 1 + end);
     let (paints, comes_first) = paints_of(&lexemes[comma + 1..end])?;
     let the = |paint: &str| [vec!["the".to_owned(), paint.to_owned()], one.clone()].concat();
     let turns: Vec<Vec<String>> = match (&paints[..], count) {
@@ -75,7 +77,7 @@ fn paints_of(list: &[Lexeme]) -> Option<(Vec<String>, bool)> {
 }
 
 /// One of several.
-fn singular(word: &str) -> Option<String> {
+pub(super) fn singular(word: &str) -> Option<String> {
     if word == "people" {
         return Some("person".to_owned());
     }
@@ -105,6 +107,12 @@ mod tests {
                 "go to all three tents, orange, then blue, then green",
                 "go to the orange tent and then the blue tent and then the green tent",
             ),
+            (
+                "take pictures of both barrels: blue, then red",
+                "take pictures of the blue barrel and then the red barrel",
+            ),
+            ("look at both cars. Start with the red one", "look at the red car and then the other car"),
+            ("look at both cars. Go to the red one", "look at both cars , go to the red one"),
             ("go to both benches, then sit on the red one", "go to both benches , then sit on the red one"),
             ("point at both cars, the red one", "point at both cars , the red one"),
             ("go to the two buses, quickly", "go to the two buses , quickly"),

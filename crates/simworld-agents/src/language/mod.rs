@@ -66,6 +66,7 @@ mod reported;
 mod requests;
 mod resolve;
 mod restarts;
+mod retold;
 mod routes;
 mod rows;
 pub(crate) mod scenes;
@@ -84,6 +85,7 @@ pub(crate) mod streets;
 #[cfg(feature = "thought")]
 mod structured;
 mod tails;
+mod talk;
 mod tests_of;
 mod tests_of_others;
 mod tests_of_self;
@@ -193,17 +195,38 @@ impl Planner for GrammarPlanner {
                     hint,
                 });
             }
-            Intent::Words(words) => Self::said(words, &names, &view, &me)?,
+            Intent::Words(words) => return Self::meant(words, &names, view, &me),
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
             Intent::Plan(_) | Intent::Act(_) => return Ok(intent.ready().unwrap_or_default()),
         };
-        let mut draft = Draft::new(view, &me);
-        draft.add_all(&clauses)?;
-        Ok(draft.finish())
+        drafted(&clauses, view, &me)
     }
 }
 
+/// The plan that orders make.
+fn drafted(clauses: &[clause::Clause], view: View<'_>, me: &EntityRef<'_>) -> Result<Plan, PlanError> {
+    let mut draft = Draft::new(view, me);
+    draft.add_all(clauses)?;
+    Ok(draft.finish())
+}
+
 impl GrammarPlanner {
+    /// The plan that words mean. Where something is not here of which only the talk before an order tells ("the forecast looked awful"), the
+    /// order is what is meant.
+    fn meant(words: &str, names: &Names<'_>, view: View<'_>, me: &EntityRef<'_>) -> Result<Plan, PlanError> {
+        let plan = |words: &str| drafted(&Self::said(words, names, &view, me)?, view.clone(), me);
+        plan(words).or_else(|refused| {
+            if !matches!(refused, PlanError::NotFound { .. }) {
+                return Err(refused);
+            }
+            let mut heard = hearing::hear(words, me.info.name.as_deref());
+            spelling::correct(&mut heard, names);
+            let orders = talk::without_talk(&heard).filter_map(|rest| words.get(rest.first()?.start..));
+            let mut plans = orders.map(&plan);
+            plans.find_map(Result::ok).ok_or(refused)
+        })
+    }
+
     /// What is made of words: as they stand, as they are corrected in the same breath, or with the pauses of who looks for words.
     fn said(
         words: &str,
@@ -225,18 +248,58 @@ impl GrammarPlanner {
                 });
             }
             let said = repairs::mend(&mut lexemes);
-            read(words, lexemes, names, view).or_else(|refused| match said {
-                Some(said) if !understood(&refused) => read(words, said, names, view).or(Err(refused)),
-                _ => Err(refused),
-            })
+            read(words, lexemes.clone(), names, view)
+                .or_else(|refused| match said {
+                    Some(said) if !understood(&refused) => read(words, said, names, view).or(Err(refused)),
+                    _ => Err(refused),
+                })
+                .or_else(|refused| in_other_words(refused, words, &lexemes, names, view))
         };
-        let mut clauses = heard(words).or_else(|refused| match hearing::pausing(words) {
+        let clauses = heard(words).or_else(|refused| match hearing::pausing(words) {
             Some(paused) if !understood(&refused) => heard(&paused).or(Err(refused)),
             _ => Err(refused),
+        });
+        let mut clauses = clauses.map_err(|refused| match unknown::unknown_deed(words, names) {
+            Some(noun) if !understood(&refused) => {
+                PlanError::NotFound { wanted: noun, near: view.surroundings() }
+            }
+            _ => refused,
         })?;
         enumerated::once_each(&mut clauses, words);
         Ok(clauses)
     }
+}
+
+/// What was refused, without talk and in plainer words: a plan if there is one, or else an answer that says more.
+fn in_other_words(
+    refused: PlanError,
+    words: &str,
+    heard: &[lexer::Lexeme],
+    names: &Names<'_>,
+    view: &View<'_>,
+) -> Result<Vec<clause::Clause>, PlanError> {
+    if matches!(refused, PlanError::Ambiguous { .. }) {
+        return Err(refused);
+    }
+    let mut corrected = heard.to_vec();
+    spelling::correct(&mut corrected, names);
+    let bare = talk::without_idioms(&corrected);
+    let whole = bare.as_deref().unwrap_or(&corrected);
+    let mut answer = refused;
+    for told in std::iter::once(whole).chain(talk::without_talk(whole)) {
+        let plain = retold::retold(told, names);
+        let mut anew = told.to_vec();
+        repairs::mend(&mut anew); // what is told in the talk may have hidden a slip
+        let as_it_is = (anew != corrected).then_some(anew);
+        for lexemes in as_it_is.into_iter().chain(plain) {
+            match read(words, lexemes, names, view) {
+                Err(other) if understood(&other) && !understood(&answer) => answer = other,
+                Err(_) => {}
+                read => return read,
+            }
+        }
+    }
+    Err(answer)
 }
 
 /// Whether an answer says more than that nothing was understood.

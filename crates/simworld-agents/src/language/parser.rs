@@ -468,7 +468,9 @@ impl<'a> Parser<'a> {
         while let Some(count) = filler(self.rest()) {
             let is_verb = longest_verb(self.rest()).is_some_and(|(_, words)| words >= count);
             let is_more = longest_phrase(self.rest(), MORE_THAN_FILLERS).is_some_and(|words| words > count);
-            if is_verb || is_more {
+            // "Buy jam, then honey": nobody is called so there.
+            let is_goods = self.verb == Some(Verb::Buy) && self.names.goods(self.rest()).is_some();
+            if is_verb || is_more || is_goods {
                 return;
             }
             self.at += count;

@@ -30,8 +30,12 @@ impl Parser<'_> {
                         | Clause::Park { .. }
                 )
             );
+        // "Look south for a second": a look, as long as one takes.
+        let a_look = longest_phrase(self.rest(), &["for a second", "for a sec", "for a moment"]).is_some()
+            && matches!(clauses.last(), Some(Clause::FaceCompass(_)));
         self.at += count;
-        if let Some(Clause::Until { test: test @ Test::Never, .. }) = clauses.last_mut() {
+        if a_look {
+        } else if let Some(Clause::Until { test: test @ Test::Never, .. }) = clauses.last_mut() {
             *test = Test::Elapsed(seconds);
         } else if rests && clauses.last_mut().is_some_and(|last| last.plural().is_some()) {
             let body = clauses.pop().map(Box::new);

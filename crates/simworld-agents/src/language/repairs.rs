@@ -193,7 +193,10 @@ impl Slip {
         }
         let begins = |lexeme: &Lexeme| is_mark(lexeme) || ["and", "then"].contains(&word_of(lexeme));
         let begin = lexemes[..self.mark].iter().rposition(begins).map_or(0, |at| at + 1);
-        let stated = lexemes[self.from..end].iter().any(|lexeme| FINITE.contains(&word_of(lexeme)));
+        // "The chair that's nearest" says which, and states nothing.
+        let which = |at: usize| at > self.from + 1 && word_of(&lexemes[at]) == "thats";
+        let which = |at: usize| which(at) && ARTICLES.contains(&word_of(&lexemes[self.from]));
+        let stated = (self.from..end).any(|at| FINITE.contains(&word_of(&lexemes[at])) && !which(at));
         if !stated && let Some(mended) = replaced(&lexemes[begin..self.mark], &lexemes[self.from..end]) {
             lexemes.splice(begin..end, mended);
         } else if self.alone && !CONDITIONS.contains(&word_of(&lexemes[begin.min(self.mark - 1)])) {
@@ -260,6 +263,14 @@ fn thing_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let articles: Vec<usize> =
         (1..wrong.len()).filter(|at| ARTICLES.contains(&word_of(&wrong[*at]))).collect();
     let same = |at: &&usize| wrong[ends(wrong, **at) - 1].token == right[ends(right, 0) - 1].token;
+    // "The shortest, no, the tallest tree": of which kind is said behind.
+    if let Some(at) = articles.last().copied()
+        && is_choice(&wrong[at + 1..])
+        && right.len() > 2
+        && is_choice(&right[1..right.len() - 1])
+    {
+        return Some([&wrong[..at], right].concat());
+    }
     let (at, last) = match articles[..] {
         [] => return None,
         [at] => (at, true),
@@ -358,6 +369,11 @@ mod tests {
             ),
             ("put the red ball on the table, no, the blue ball", "put the blue ball on the table"),
             ("sit on the blue bench, no, on the red one", "sit on the red bench"),
+            ("take a photo of the shortest, no, the tallest tree", "take a photo of the tallest tree"),
+            (
+                "sit on the bench, sorry, the chair that's closest to the oak",
+                "sit on the chair thats closest to the oak",
+            ),
             ("give it to Emil, no, Boris", "give it to boris"),
             ("walk to the slide. No, sorry, to the oak I mean.", "walk to the oak ,"),
             ("wave at Nora. Sorry, at Omar", "wave at omar"),

@@ -2,9 +2,15 @@
 
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Pace, Target};
+use super::clause::{Clause, Pace, Reference, Target};
+use super::lexer::{Lexeme, is_mark, word_of};
 use super::numbers;
 use super::parser::Parser;
+use super::resolve::Purpose;
+use super::verbs::longest_verb;
+
+/// How far behind an order it is looked for which end comes first, in words.
+const MOST_WORDS: usize = 6;
 
 impl Parser<'_> {
     /// "From the statue to the fountain"; "around until ..." leads nowhere in particular.
@@ -40,6 +46,35 @@ impl Parser<'_> {
             (false, true) => vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }],
             (false, false) => vec![go(one), go(other)],
         }))
+    }
+
+    /// "From the pump to the tyre three times, pump first": at which end one begins; whether that was said.
+    pub(super) fn end_first(&mut self, clauses: &mut [Clause]) -> bool {
+        let Some(Clause::Repeat { body, .. }) = clauses.last_mut() else { return false };
+        let [Clause::Go { to: one, .. }, Clause::Go { to: other, .. }] = &body[..] else { return false };
+        let start = self.at;
+        let first = |lexeme: &Lexeme| word_of(lexeme) == "first";
+        let said = self.rest().iter().take(MOST_WORDS).position(first).is_some();
+        let marked = self.rest().first().is_some_and(is_mark);
+        self.at += usize::from(marked);
+        let found = |what: &Reference| self.view.find(what, Purpose::Any).ok().map(|found| found.id);
+        let (one, other) = (found(one), found(other));
+        if said
+            && marked
+            && longest_verb(self.rest()).is_none()
+            && let Ok(end) = self.reference(0)
+            && let Some(end) = self.view.find(&end, Purpose::Any).ok().map(|found| found.id)
+            && (Some(end) == one || Some(end) == other)
+            && self.eat_any(&["first"])
+            && self.ends_clause()
+        {
+            if Some(end) == other {
+                body.reverse();
+            }
+            return true;
+        }
+        self.at = start;
+        false
     }
 
     pub(super) fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {

@@ -67,6 +67,13 @@ pub(super) fn sound_words(lexemes: &mut [Lexeme]) {
         let next = lexemes.get(at + 1).map(|next| &next.token);
         let goes_on = matches!(next, Some(Token::Word(word)) if BEHIND.contains(&word.as_str()))
             || at == 0 && numbers::count(&lexemes[1..]).is_some(); // "by three waffles"
+        if let Some(short) = in_full(lexemes, at) {
+            lexemes[at] = Lexeme {
+                token: Token::Word(short.to_owned()),
+                lemma: verbs::base_form(short),
+                ..lexemes[at].clone()
+            };
+        }
         let Token::Word(word) = &lexemes[at].token else { continue };
         let Some((_, right)) = SAME.iter().find(|(said, _)| said == word).filter(|_| begins && goes_on)
         else {
@@ -80,6 +87,17 @@ pub(super) fn sound_words(lexemes: &mut [Lexeme]) {
                 Lexeme { token: Token::Word((*right).to_owned()), lemma: None, ..lexemes[at].clone() };
         }
     }
+}
+
+/// "Cn you", "frm the hut": words that people write without their vowels, and slips that are no single edit.
+fn in_full(lexemes: &[Lexeme], at: usize) -> Option<&'static str> {
+    #[rustfmt::skip]
+    const SHORT: &[(&str, &str)] = &[
+        ("cn", "can"), ("sry", "sorry"), ("srry", "sorry"), ("sory", "sorry"), ("withe", "white"), ("thx", "thanks"), ("frm", "from"), ("wlk", "walk"), ("nxt", "next"), ("rde", "ride"), ("ried", "ride"), ("th", "the"), ("teh", "the"), ("hte", "the"), ("thn", "then"),
+        ("opn", "open"), ("wth", "with"), ("plse", "please"), ("gt", "get"), ("nd", "and"), ("adn", "and"), ("fo", "of"), ("ot", "to"),
+    ];
+    let Token::Word(word) = &lexemes[at].token else { return None };
+    SHORT.iter().find(|(short, _)| short == word).map(|(_, full)| *full)
 }
 
 /// "Wave too Nina": behind a verb, with something behind it.

@@ -55,6 +55,7 @@ impl Parser<'_> {
                 || self.done_to_another(clauses, group)
                 || self.each_time(clauses)
                 || self.one_first(clauses)
+                || self.end_first(clauses)
                 || self.but_first(clauses, comma)?
             {
             } else if let Some((times, count)) =

@@ -3,18 +3,54 @@
 use simworld_core::seam::PlanError;
 
 use super::clause::Target;
-use super::lexer::{Lexeme, Token, lex, written};
-use super::lexicon::{COPULAS, longest_phrase, longest_relation};
-use super::names::Guess;
+use super::lexer::{Lexeme, Token, is_mark, lex, word_of, written};
+use super::lexicon::{COPULAS, category, longest_phrase, longest_relation};
+use super::names::{Guess, Names};
 use super::parser::{Parser, shortened};
 use super::phrases::Phrases;
 use super::politeness::{filler, joint};
+use super::verbs::longest_verb;
 
 /// Words that end a phrase whose words are not known.
 const BOUNDARIES: &Phrases = &Phrases::of(&[
     "to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless",
     "when", "from", "of", "or", "that", "while", "before", "after", "via", "past",
 ]);
+
+/// "Water the sunflowers": what is not here, in an order that is not known either; with politeness and with nothing else. None if
+/// the thing is one that is here or may be, of which it is the deed that nobody knows.
+pub(super) fn unknown_deed(words: &str, names: &Names<'_>) -> Option<String> {
+    #[rustfmt::skip]
+    const LEADS: &Phrases = &Phrases::of(&[
+        "the", "onto the", "on the", "up the", "down the", "into the", "in the", "over the", "with the", "out the", "off the", "something on the", "a song on the", "a tune on the",
+        "at the", "from the", "some of the", "all the", "through the",
+    ]);
+    /// What people do with things, and nobody here can.
+    #[rustfmt::skip]
+    const DEEDS: &[&str] = &[
+        "water", "play", "climb", "milk", "feed", "mow", "sweep", "clean", "wash", "ring", "light", "repair", "fix", "cook", "brush", "stroke", "pet", "jump", "swim", "dance", "read", "plant", "dig",
+        "bake", "fly", "sail", "row", "fill", "empty", "polish", "rake", "prune", "groom", "saddle", "shear", "pluck", "pick", "switch", "start", "wind", "hang", "fold", "iron", "load", "unload", "tune", "dust", "mop",
+    ];
+    let lexemes = super::hearing::hear(words, None);
+    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme))? + 1;
+    let mut said = &lexemes[..end];
+    while let Some(count) = filler(said).or_else(|| said.first().filter(|first| is_mark(first)).map(|_| 1)) {
+        said = &said[count..];
+    }
+    let plain = |lexeme: &Lexeme| matches!(lexeme.token, Token::Word(_));
+    let deed = said.first().filter(|first| plain(first))?;
+    let lead = longest_phrase(&said[1..], LEADS)?;
+    let noun = said.get(1 + lead).filter(|noun| plain(noun))?;
+    // Up to where it stands: "the sunflowers behind the depot".
+    let behind = said.get(2 + lead..).unwrap_or_default();
+    let ends = behind.is_empty() || longest_relation(behind).is_some();
+    let here = |noun: &Lexeme| {
+        let said = std::slice::from_ref(noun);
+        category(said).is_some() || names.goods(said).is_some() || names.has_word(word_of(noun))
+    };
+    let known = longest_verb(said).is_some() || !DEEDS.contains(&word_of(deed));
+    (ends && !known && !here(noun)).then(|| word_of(noun).to_owned())
+}
 
 impl<'a> Parser<'a> {
     /// What such a phrase means, if one thing only can be meant.

@@ -182,6 +182,15 @@ fn those_that_cannot_be_made_are_named() {
     assert!(matches!(VectorEnv::new(5, config, make).err(), Some(VectorError::Env { index: 2, .. })));
     let make = |index| Drift::new().frame_stack(1 + index / 3);
     assert!(matches!(VectorEnv::new(5, config, make).err(), Some(VectorError::Spaces { index: 3 })));
+    // the caller's share and another's
+    for whose in [2, 3] {
+        let make = move |index| {
+            assert!(index != whose, "no ground to stand on");
+            Ok(Drift::new())
+        };
+        let error = VectorEnv::new(5, config, make).err().unwrap().to_string();
+        assert!(error.contains(&format!("environment {whose}")) && error.contains("no ground"), "{error}");
+    }
 }
 
 /// Set in a child of this test, which prints its digest and does no more.

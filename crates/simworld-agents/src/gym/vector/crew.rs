@@ -1,4 +1,4 @@
-//! Who steps the environments: the caller, or threads that have each a share of them.
+//! Who steps the environments: the caller and threads, each of whom has a share of them.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -21,16 +21,16 @@ type AllDone<E> = Vec<Option<Done<<E as Env>::Observation>>>;
 /// The jobs of some environments; nothing where one has none.
 type Jobs<E> = Vec<Option<Job<<E as Env>::Action>>>;
 
-/// Those who step.
-pub(super) enum Crew<E: Env> {
-    /// The caller.
-    Caller(Vec<Slot<E>>),
-    /// Threads, and the number of environments; environment `i` is the `i / n`-th of thread `i % n`.
-    Threads(Vec<Hand<E>>, usize),
+/// Those who step: the caller and, with more than one thread, hands of which each has its share. Environment `i` is the `i / n`-th of
+/// share `i % n` of `n`, and the first share is the caller's, who works like the others instead of waiting for them.
+pub(super) struct Crew<E: Env> {
+    own: Vec<Slot<E>>,
+    hands: Vec<Hand<E>>,
+    count: usize,
 }
 
 /// A thread and the way to it.
-pub(super) struct Hand<E: Env> {
+struct Hand<E: Env> {
     /// None once it is told to end.
     errands: Option<Sender<Errand<E>>>,
     thread: Option<JoinHandle<()>>,
@@ -43,19 +43,15 @@ where
     E::Action: Send + 'static,
 {
     pub(super) fn new(count: usize, threads: usize, make: &Make<E>) -> Result<Self, VectorError> {
-        let failed = |index| move |source| VectorError::Env { index, source };
-        if threads == 1 || count <= 1 {
-            let slot = |index| make(index).map(Slot::new).map_err(failed(index));
-            return Ok(Self::Caller((0..count).map(slot).collect::<Result<_, _>>()?));
-        }
-        let hands = (0..threads.min(count)).map(|_| Hand::new()).collect::<Result<Vec<_>, _>>()?;
-        let threads = hands.len();
-        let crew = Self::Threads(hands, count);
+        let hands = (1..threads.min(count)).map(|_| Hand::new()).collect::<Result<Vec<_>, _>>()?;
+        let mut crew = Self { own: Vec::new(), hands, count };
+        let shares = crew.shares();
         let made = crew.everywhere(|first| {
             let make = Arc::clone(make);
             move |slots: &mut Vec<Slot<E>>| {
-                (first..count).step_by(threads).try_for_each(|index| {
-                    slots.push(Slot::new(make(index).map_err(failed(index))?));
+                (first..count).step_by(shares).try_for_each(|index| {
+                    let slot = Slot::make(|| make(index));
+                    slots.push(slot.map_err(|source| VectorError::Env { index, source })?);
                     Ok(())
                 })
             }
@@ -74,11 +70,11 @@ where
         index: usize,
         look: impl FnOnce(&mut E) -> R + Send + 'static,
     ) -> Result<R, VectorError> {
-        let seen = match self {
-            Self::Caller(slots) => slots[index].with(look),
-            Self::Threads(hands, _) => {
-                let place = index / hands.len();
-                let answer = hands[index % hands.len()].ask(move |slots| slots[place].with(look));
+        let (share, place) = (index % self.shares(), index / self.shares());
+        let seen = match share.checked_sub(1) {
+            None => self.own[place].with(look),
+            Some(hand) => {
+                let answer = self.hands[hand].ask(move |slots| slots[place].with(look));
                 answer.recv().unwrap_or_else(|_| Err(lost()))
             }
         };
@@ -91,17 +87,9 @@ where
         jobs: Jobs<E>,
         over: &mut [bool],
     ) -> Result<Vec<Option<VectorTransition<E::Observation>>>, VectorError> {
-        let done = match self {
-            Self::Caller(slots) => work_through(slots, jobs),
-            Self::Threads(hands, count) => {
-                let threads = hands.len();
-                let count = *count;
-                self.work_on_threads(jobs, threads, count)
-            }
-        };
-        let mut all = Vec::with_capacity(done.len());
+        let mut all = Vec::with_capacity(self.count);
         let mut fault = None;
-        for (index, done) in done.into_iter().enumerate() {
+        for (index, done) in self.share_out(jobs).into_iter().enumerate() {
             let Some((result, is_over)) = done else {
                 all.push(None);
                 continue;
@@ -115,10 +103,12 @@ where
         fault.map_or(Ok(all), Err)
     }
 
-    fn work_on_threads(&self, jobs: Jobs<E>, threads: usize, count: usize) -> AllDone<E> {
-        let mut shares: Vec<Jobs<E>> = (0..threads).map(|_| Vec::new()).collect();
+    /// Does the jobs, each where its environment is; what came of them in the order of the environments.
+    fn share_out(&mut self, jobs: Jobs<E>) -> AllDone<E> {
+        let among = self.shares();
+        let mut shares: Vec<Jobs<E>> = (0..among).map(|_| Vec::new()).collect();
         for (index, job) in jobs.into_iter().enumerate() {
-            shares[index % threads].push(job);
+            shares[index % among].push(job);
         }
         let mut shares = shares.into_iter();
         let done = self.everywhere(|_| {
@@ -126,26 +116,32 @@ where
             move |slots: &mut Vec<Slot<E>>| work_through(slots, share)
         });
         let mut done: Vec<_> = done.into_iter().map(|share| share.ok().map(Vec::into_iter)).collect();
-        let pick = |index: usize| match &mut done[index % threads] {
+        let pick = |index: usize| match &mut done[index % among] {
             Some(share) => share.next().unwrap_or_default(),
             None => Some((Err(lost()), true)),
         };
-        (0..count).map(pick).collect()
+        (0..self.count).map(pick).collect()
     }
 
-    /// Sends every thread on an errand, which is made with the index of its first environment, and waits for all.
-    fn everywhere<R, F>(&self, mut errand: impl FnMut(usize) -> F) -> Vec<Result<R, VectorError>>
+    /// Sends every hand on an errand, which is made with the index of its first environment, does the first one itself, and waits
+    /// for all.
+    fn everywhere<R, F>(&mut self, mut errand: impl FnMut(usize) -> F) -> Vec<Result<R, VectorError>>
     where
         R: Send + 'static,
         F: FnOnce(&mut Vec<Slot<E>>) -> R + Send + 'static,
     {
-        let Self::Threads(hands, _) = self else { return Vec::new() };
+        let mine = errand(0);
         let sent: Vec<Receiver<R>> =
-            hands.iter().enumerate().map(|(first, hand)| hand.ask(errand(first))).collect();
-        let answer = |(index, answer): (usize, Receiver<R>)| {
-            answer.recv().map_err(|_| VectorError::Env { index, source: lost() })
-        };
-        sent.into_iter().enumerate().map(answer).collect()
+            self.hands.iter().enumerate().map(|(hand, one)| one.ask(errand(hand + 1))).collect();
+        let mut all = vec![Ok(mine(&mut self.own))];
+        all.extend(sent.into_iter().enumerate().map(|(hand, answer)| {
+            answer.recv().map_err(|_| VectorError::Env { index: hand + 1, source: lost() })
+        }));
+        all
+    }
+
+    fn shares(&self) -> usize {
+        self.hands.len() + 1
     }
 }
 

@@ -19,8 +19,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct VectorConfig {
-    /// Threads; with 1 all is done on the caller's, else each thread has its share of environments for good. No result depends
-    /// on it.
+    /// Threads, of which the caller's is one; each has its share of environments for good. No result depends on it.
     pub threads: NonZeroUsize,
     /// What happens when an episode ends.
     pub autoreset: Autoreset,
@@ -106,7 +105,7 @@ type Begun<O> = Vec<Option<(O, Info)>>;
 
 /// Many environments of one kind, stepped together and each by itself: what one does is the same on any number of threads.
 ///
-/// Each is made on the thread where it will live, so it need not be [`Send`]. Threads end when the vector is dropped, which
+/// Each is made on the thread where it will live, so it need not be [`Send`]. The caller works on a share of its own. Threads end when the vector is dropped, which
 /// waits for the step that is under way, if there is one.
 ///
 /// ```

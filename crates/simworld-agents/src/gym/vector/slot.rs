@@ -1,5 +1,6 @@
 //! One of many environments, and what it is asked to do.
 
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use simworld_core::seam::{Autoreset, Env, EnvError, Options, Transition};
@@ -35,8 +36,10 @@ enum Phase {
 }
 
 impl<E: Env> Slot<E> {
-    pub(super) fn new(env: E) -> Self {
-        Self { env: Some(env), phase: Phase::Blank }
+    /// A place with a new environment; who panics while it is made is told of like who refuses.
+    pub(super) fn make(make: impl FnOnce() -> Result<E, EnvError>) -> Result<Self, EnvError> {
+        let env = catch_unwind(AssertUnwindSafe(make)).map_err(|panic| panicked(&*panic))??;
+        Ok(Self { env: Some(env), phase: Phase::Blank })
     }
 
     pub(super) fn work(&mut self, job: Job<E::Action>) -> Done<E::Observation> {
@@ -67,9 +70,13 @@ impl<E: Env> Slot<E> {
         let env = self.env.as_mut().ok_or_else(gone)?;
         catch_unwind(AssertUnwindSafe(|| act(env))).map_err(|panic| {
             self.env = None;
-            EnvError::Simulation(format!("it panicked: {}", crate::panics::words(&*panic)))
+            panicked(&*panic)
         })
     }
+}
+
+fn panicked(panic: &(dyn Any + Send)) -> EnvError {
+    EnvError::Simulation(format!("it panicked: {}", crate::panics::words(panic)))
 }
 
 type Stepped<O> = Result<VectorTransition<O>, EnvError>;

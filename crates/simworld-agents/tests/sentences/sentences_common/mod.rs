@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 26] = [
+const SETS: [&str; 28] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -60,6 +60,8 @@ const SETS: [&str; 26] = [
     "twentyfourth",
     "twentyfifth",
     "twentysixth",
+    "twentyseventh",
+    "twentyeighth",
 ];
 
 /// One thing that is said, and what it means.
