@@ -15,7 +15,7 @@ use crate::geometry::{Aabb, Point3, Vector3};
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Relation {
-    /// A gap of at most 2 m, or a quarter of the larger one's width.
+    /// A gap of at most 2 m, or a quarter of the larger one's width up to 10 m.
     NextTo,
     /// A gap of at most 30 m.
     Near,
