@@ -1,11 +1,15 @@
-//! Points, poses, twists and bounding boxes.
+//! Points, poses, twists, bounding boxes and footprints.
 //!
 //! World frame: right-handed, x east, y north, z up (ROS REP-103); body frame: x forward, y left, z up. Metres,
 //! radians, seconds, `f64`. A pose named `world_from_body` maps points of the body frame into the world:
 //! `world_from_body * point_in_body`.
 
+mod rectangle;
+
 use nalgebra::{Isometry3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
+
+pub use rectangle::Rectangle;
 
 use crate::ops;
 

@@ -82,14 +82,7 @@ impl Solid {
 
     /// Between two footprints, m; zero where they touch.
     pub(super) fn gap(&self, other: &Self) -> f64 {
-        if self.obb().footprints_overlap(&other.obb()) {
-            return 0.0;
-        }
-        // Of two convex outlines apart from each other the nearest points are a corner of one and a point of the other.
-        let from = |one: &Self, to: &Self| {
-            one.corners().into_iter().map(|corner| to.distance_to(corner)).fold(f64::INFINITY, f64::min)
-        };
-        from(self, other).min(from(other, self))
+        self.obb().rectangle().gap(&other.obb().rectangle())
     }
 
     /// Whether the two share space, in the plane and in height; a hair of contact is none.

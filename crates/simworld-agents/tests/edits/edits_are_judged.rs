@@ -1,4 +1,4 @@
-//! What people ask of the scene in four cities: carried out, judged from outside, and scored by family.
+//! What people ask of the scene in five cities: carried out, judged from outside, and scored by family.
 //!
 //! The sentences in `tests/edits` were written by strangers to the grammar that reads them, but for the first. The judge compares the world before and
 //! after: the relation that was asked for holds, nothing else changed, nothing floats or runs into another thing.

@@ -19,5 +19,6 @@ mod scenes_are_read;
 mod tables;
 mod things_are_found_by_words;
 mod things_are_known_by_what_they_are;
+mod things_stand_around_turned_houses;
 #[path = "../shared/thought_common/mod.rs"]
 mod thought_common;

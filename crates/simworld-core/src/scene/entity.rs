@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{EntityKind, FIELD_OF_VIEW, GAZE, OPEN, Place, Scene, Shape};
 use crate::asset::{AffordanceSet, Material};
-use crate::geometry::{Aabb, Obb, Point2, Point3, Pose, Twist, planar};
+use crate::geometry::{Aabb, Obb, Point2, Point3, Pose, Rectangle, Twist, planar};
 use crate::hash::StateHasher;
 use crate::id::{AssetId, EntityId};
 use crate::value::Value;
@@ -206,6 +206,11 @@ impl EntityRef<'_> {
     /// The oriented box around it.
     pub fn obb(&self) -> Obb {
         self.info.shape.obb(self.pose)
+    }
+
+    /// What it takes of the ground, turned as it is.
+    pub fn footprint(&self) -> Rectangle {
+        self.obb().rectangle()
     }
 
     /// Where one stands to use it, world frame: its access point, or its origin.

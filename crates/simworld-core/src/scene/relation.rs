@@ -3,9 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::{EntityKind, EntityRef};
-use crate::geometry::{Point3, Vector3};
+use crate::geometry::{Aabb, Point3, Vector3};
 
 /// A relation of a subject to a reference entity.
+///
+/// A gap is that in the plane between the [footprints](EntityRef::footprint) of the two, turned as they are.
 ///
 /// `in front of`, `behind`, `left of` and `right of` are seen from the reference entity itself: in front of a
 /// building is where its entrance looks.
@@ -13,7 +15,7 @@ use crate::geometry::{Point3, Vector3};
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Relation {
-    /// A gap of at most 2 m, or a quarter of the larger one's width.
+    /// A gap of at most 2 m, or a quarter of the larger one's width up to 10 m.
     NextTo,
     /// A gap of at most 30 m.
     Near,
@@ -29,12 +31,14 @@ pub enum Relation {
     RightOf,
     /// Standing on its top, at most 5 cm off.
     OnTopOf,
-    /// Within its bounds; of flat ground, such as a park: with its whole footprint on it.
+    /// Within its footprint and its height; of flat ground, such as a park: with its whole footprint on it.
     Inside,
 }
 
 /// A gap that still counts as near, m.
 const NEAR: f64 = 30.0;
+/// Walls that are so near to each other are flush, m: that much is rounding.
+const FLUSH: f64 = 1e-9;
 
 impl Relation {
     /// Every relation.
@@ -70,25 +74,24 @@ impl Relation {
         if subject.id == reference.id {
             return false;
         }
-        let gap = planar_gap(subject, reference);
         match self {
-            Self::NextTo => gap <= next_to_gap(subject, reference),
-            Self::Near => gap <= NEAR,
-            Self::FarFrom => gap > NEAR,
-            Self::InFrontOf => gap <= NEAR && in_quarter(subject, reference, Vector3::x()),
-            Self::Behind => gap <= NEAR && in_quarter(subject, reference, -Vector3::x()),
-            Self::LeftOf => gap <= NEAR && in_quarter(subject, reference, Vector3::y()),
-            Self::RightOf => gap <= NEAR && in_quarter(subject, reference, -Vector3::y()),
-            Self::OnTopOf => gap == 0.0 && (subject.bounds.min.z - reference.bounds.max.z).abs() <= 0.05,
+            Self::NextTo => is_within(subject, reference, next_to_gap(subject, reference)),
+            Self::Near => is_within(subject, reference, NEAR),
+            Self::FarFrom => !is_within(subject, reference, NEAR),
+            Self::InFrontOf => is_on_side(subject, reference, Vector3::x()),
+            Self::Behind => is_on_side(subject, reference, -Vector3::x()),
+            Self::LeftOf => is_on_side(subject, reference, Vector3::y()),
+            Self::RightOf => is_on_side(subject, reference, -Vector3::y()),
+            Self::OnTopOf => {
+                (subject.bounds.min.z - reference.bounds.max.z).abs() <= 0.05
+                    && is_within(subject, reference, 0.0)
+            }
             Self::Inside if is_flat(reference.kind) => {
                 let corners = subject.obb().footprint();
-                let is_on = |corner| reference.info.shape.planar_distance(reference.pose, corner) <= 1e-9;
+                let is_on = |corner| reference.info.shape.planar_distance(reference.pose, corner) <= FLUSH;
                 corners.iter().all(is_on)
             }
-            Self::Inside => {
-                reference.bounds.contains(&subject.bounds.min)
-                    && reference.bounds.contains(&subject.bounds.max)
-            }
+            Self::Inside => is_inside(subject, reference),
         }
     }
 }
@@ -98,18 +101,49 @@ const fn is_flat(kind: EntityKind) -> bool {
     matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
 }
 
-/// Least distance in the plane between the axis-aligned boxes, m.
-fn planar_gap(a: &EntityRef<'_>, b: &EntityRef<'_>) -> f64 {
-    let apart = |axis: usize| {
-        (a.bounds.min[axis] - b.bounds.max[axis]).max(b.bounds.min[axis] - a.bounds.max[axis]).max(0.0)
-    };
+/// Whether the gap between the two is at most so wide, m. The boxes around them lie with what says where they are, and tell most of it:
+/// they are never farther apart than the footprints, and the middles never nearer.
+fn is_within(a: &EntityRef<'_>, b: &EntityRef<'_>, most: f64) -> bool {
+    if box_gap(a.bounds, b.bounds) > most {
+        return false;
+    }
+    let way = (b.bounds.center() - a.bounds.center()).xy();
+    if way.norm_squared() <= most * most {
+        return true;
+    }
+    let (a, b) = (a.footprint(), b.footprint());
+    // What stands along the axes fills its box.
+    a.is_along_axes() && b.is_along_axes() || a.gap(&b) <= most
+}
+
+/// Least distance in the plane between two boxes, m.
+fn box_gap(a: &Aabb, b: &Aabb) -> f64 {
+    let apart = |axis: usize| (a.min[axis] - b.max[axis]).max(b.min[axis] - a.max[axis]).max(0.0);
     let (dx, dy) = (apart(0), apart(1));
     (dx * dx + dy * dy).sqrt()
+}
+
+/// Whether the subject lies within what a body takes of the ground, and of the height.
+fn is_inside(subject: &EntityRef<'_>, reference: &EntityRef<'_>) -> bool {
+    let (own, around) = (subject.bounds, reference.bounds);
+    if own.min.z < around.min.z || own.max.z > around.max.z || box_gap(own, around) > 0.0 {
+        return false;
+    }
+    let (inner, outer) = (subject.footprint(), reference.footprint());
+    if inner.is_along_axes() && outer.is_along_axes() {
+        return around.contains(&own.min) && around.contains(&own.max);
+    }
+    inner.corners().iter().all(|corner| outer.distance_to(corner) <= FLUSH)
 }
 
 fn next_to_gap(a: &EntityRef<'_>, b: &EntityRef<'_>) -> f64 {
     let width = |entity: &EntityRef<'_>| entity.info.shape.size().xy().max();
     (width(a).max(width(b)) * 0.25).clamp(2.0, 10.0)
+}
+
+/// Whether the subject is near, and in the quarter around `axis` of the reference's body frame.
+fn is_on_side(subject: &EntityRef<'_>, reference: &EntityRef<'_>, axis: Vector3) -> bool {
+    in_quarter(subject, reference, axis) && is_within(subject, reference, NEAR)
 }
 
 /// Whether the subject's centre lies in the 90° sector around `axis` of the reference's body frame, measured

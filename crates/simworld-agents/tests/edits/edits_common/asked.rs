@@ -2,9 +2,9 @@
 
 use crate::tables::lines_of;
 
-pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
-/// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 32] = [
+pub(crate) const CITIES: [&str; 5] = ["harbour", "oldtown", "campus", "quarter", "crescent"];
+/// The sets of sentences in the order in which they came; each is `CITY.SET.toml`. Not every city has every set.
+const SETS: [&str; 33] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -37,6 +37,7 @@ const SETS: [&str; 32] = [
     "thirtieth.edits",
     "thirtyfirst.edits",
     "thirtysecond.edits",
+    "turned.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
@@ -55,7 +56,7 @@ fn asked_in(city: &str) -> Vec<Asked> {
 
 /// Of the older sets so many sentences are a sample of one.
 const SAMPLED: usize = 3;
-/// Sets that no sample leaves anything out of.
+/// So many sets of a city, the newest, are left whole by a sample.
 const NEWEST: usize = 2;
 
 /// Whether everything is judged: `SIMWORLD_SOAK`.
@@ -66,16 +67,20 @@ pub(crate) fn is_whole() -> bool {
 /// As [`asked_in`]; of the older sets a sample alone, unless `SIMWORLD_SOAK` asks for the whole.
 pub(crate) fn sampled_in(city: &str) -> Vec<Asked> {
     let is_whole = is_whole();
-    let newest = &SETS[SETS.len() - NEWEST..];
-    let asked = asked_in(city).into_iter().enumerate();
+    let asked = asked_in(city);
+    let mut sets: Vec<&str> = asked.iter().map(|asked| asked.set).collect();
+    sets.dedup();
+    let newest = sets.split_off(sets.len().saturating_sub(NEWEST));
+    let asked = asked.into_iter().enumerate();
     let taken =
         asked.filter(|(index, asked)| is_whole || index % SAMPLED == 0 || newest.contains(&asked.set));
     taken.map(|(_, asked)| asked).collect()
 }
 
-/// What is asked in a city in the newest set.
+/// What is asked in a city in the newest set that it has.
 pub(crate) fn newest_in(city: &str) -> Vec<Asked> {
-    asked_in_set(city, SETS[SETS.len() - 1])
+    let mut sets = SETS.iter().rev().map(|set| asked_in_set(city, set));
+    sets.find(|asked| !asked.is_empty()).unwrap_or_default()
 }
 
 /// What is asked in a city by ourselves, of which all is to be right.

@@ -109,10 +109,7 @@ impl Judge<'_> {
     fn within(&self, one: &str, other: &str) -> f64 {
         let [one, other] = [one, other].map(|key| self.id(key));
         let way = (place_of(self.after, other) - place_of(self.after, one)).normalize();
-        let reach = |id: EntityId| {
-            let size = self.after.entity(id).expect("it is there").bounds.half_extents();
-            (size.x / way.x.abs()).min(size.y / way.y.abs())
-        };
+        let reach = |id: EntityId| Footprint::of(self.after, id).expect("it is there").reach(way);
         reach(one) + reach(other)
     }
 
@@ -208,7 +205,6 @@ impl Judge<'_> {
 
     pub(super) fn stands_on_ground(&self, thing: EntityId, relation: &str, keys: &[&str]) -> bool {
         let at = place_of(self.after, thing);
-        let box_of = |id: EntityId| *self.after.entity(id).expect("it is there").bounds;
         let anchor = || self.id(keys[0]);
         let footprint = |id: EntityId| Footprint::of(self.after, id).expect("it is there");
         let gap = || footprint(anchor()).gap(&footprint(thing));
@@ -252,12 +248,7 @@ impl Judge<'_> {
                 block(at) == block(place_of(self.after, anchor()))
             }
             "middle" => (at - place_of(self.after, anchor())).norm() <= 3.6,
-            "edge" => {
-                let bounds = box_of(anchor());
-                let inside =
-                    [at.x - bounds.min.x, bounds.max.x - at.x, at.y - bounds.min.y, bounds.max.y - at.y];
-                inside.into_iter().fold(f64::INFINITY, f64::min).abs() <= 2.2
-            }
+            "edge" => footprint(anchor()).depth(at).abs() <= 2.2,
             other => panic!("no relation {other}"),
         }
     }

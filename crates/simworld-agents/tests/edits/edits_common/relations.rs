@@ -73,6 +73,18 @@ impl Footprint {
         (way.dot(&self.ahead), way.dot(&to_the_left(self.ahead)))
     }
 
+    /// From the middle to the edge in a direction, m.
+    pub(super) fn reach(&self, way: Vector2) -> f64 {
+        let (ahead, left) = (way.dot(&self.ahead), way.dot(&to_the_left(self.ahead)));
+        (self.half.x / ahead.abs()).min(self.half.y / left.abs())
+    }
+
+    /// How far from the nearest side a point within is, m; below zero outside.
+    pub(super) fn depth(&self, point: Point2) -> f64 {
+        let (ahead, left) = self.seen_from(point);
+        (self.half.x - ahead.abs()).min(self.half.y - left.abs())
+    }
+
     fn covers(&self, point: Point2) -> bool {
         let (ahead, left) = self.seen_from(point);
         ahead.abs() <= self.half.x + HAIR && left.abs() <= self.half.y + HAIR
@@ -301,6 +313,16 @@ fn the_judge_measures_between_walls_and_not_between_boxes_around_them() {
     // A house turned by 45° shows a corner: its half-diagonal along the line is (5 + 3) / √2.
     let corner = 12.0 - 8.0 / 2f64.sqrt();
     assert!((here.gap(&house(0.0, 12.0, 45.0)) - (corner - 3.0)).abs() < 1e-9);
+    // Beside a house of 40 m that is turned by 45°: what stands 14 m from its wall is in the box around it, and not next to it.
+    let long = Footprint { half: Vector2::new(20.0, 3.0), ..house(0.0, 0.0, -45.0) };
+    let off = |gap: f64| {
+        let at = direction(45_f64.to_radians()) * (3.0 + gap + 0.5);
+        Footprint { half: Vector2::new(0.5, 0.5), ..house(at.x, at.y, 45.0) }
+    };
+    assert!((long.gap(&off(14.0)) - 14.0).abs() < 1e-9 && !off(14.0).is_next_to(&long));
+    assert!(off(9.0).is_next_to(&long) && off(14.0).is_on_side(&long, Side::Left));
+    assert!((long.reach(direction(45_f64.to_radians())) - 3.0).abs() < 1e-9);
+    assert!((long.depth(off(-1.0).middle) - 0.5).abs() < 1e-9, "half a metre within its wall");
     assert!(house(20.0, 14.0, 0.0).is_on_side(&here, Side::Front), "within 45° of its axis");
     assert!(!house(14.0, 20.0, 0.0).is_on_side(&here, Side::Front), "beyond them");
     assert!(house(14.0, 20.0, 0.0).is_on_side(&here, Side::Left));
