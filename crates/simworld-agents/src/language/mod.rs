@@ -221,7 +221,8 @@ impl GrammarPlanner {
             }
             let mut heard = hearing::hear(words, me.info.name.as_deref());
             spelling::correct(&mut heard, names);
-            let orders = talk::without_talk(&heard).filter_map(|rest| words.get(rest.first()?.start..));
+            let orders =
+                talk::without_talk(&heard, names).filter_map(|rest| words.get(rest.first()?.start..));
             let mut plans = orders.map(&plan);
             plans.find_map(Result::ok).ok_or(refused)
         })
@@ -286,7 +287,7 @@ fn in_other_words(
     let bare = talk::without_idioms(&corrected);
     let whole = bare.as_deref().unwrap_or(&corrected);
     let mut answer = refused;
-    for told in std::iter::once(whole).chain(talk::without_talk(whole)) {
+    for told in std::iter::once(whole).chain(talk::without_talk(whole, names)) {
         let plain = retold::retold(told, names);
         let mut anew = told.to_vec();
         repairs::mend(&mut anew); // what is told in the talk may have hidden a slip

@@ -8,6 +8,7 @@
 use super::asides;
 use super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::lexicon::{DETERMINERS, category, longest_phrase};
+use super::names::Names;
 use super::phrases::Phrases;
 use super::politeness::filler;
 use super::verbs::longest_verb;
@@ -17,7 +18,10 @@ use super::verbs::longest_verb;
 const GUARDS: &Phrases = &Phrases::of(&[
     "if", "unless", "until", "till", "dont", "do not", "never", "no", "not", "instead", "avoid", "only", "except", "without", "before", "after", "when", "whenever", "please", "rather",
     "you should", "you must", "you have to", "you need to", "you can", "you could", "you may", "you shall", "you are to", "youre to", "could you", "would you", "will you", "can you",
-    "want", "wants", "need", "needs", "wanted", "needed", "then", "other than", "another", "ought to go", "id like", "i would like", "id love", "i would love", "wed like", "we would like", "first", "but",
+    "want", "wants", "need", "needs", "wanted", "needed", "then", "other than", "another", "ought to go", "mean", "means", "meant", "rule", "rules", "law", "forbidden", "allowed", "supposed", "reserved", "belongs", "belong", "off limits", "stolen", "must stay", "has to stay", "order", "orders", "command", "instruction", "example",
+    "word", "opposite", "reverse", "game", "following", "next bit", "comes next", "play", "playing", "pretend", "character", "role", "distances", "numbers", "directions", "left", "right", "north", "south", "east", "west", "always", "every", "each", "whoever", "whatever", "anyone", "anybody",
+    "anything", "everything", "ideally", "i wish", "should stay", "careful", "beware", "warning", "watch out", "void", "cancel", "cancelling", "hint", "advice", "locked", "shut", "off limits", "asleep", "deaf", "blind", "scared", "allergic", "allergy", "secret", "code", "instead of", "same", "different",
+    "twice", "the one", "the ones", "talking about", "thinking of", "speaking of", "id like", "i would like", "id love", "i would love", "wed like", "we would like", "first", "but",
 ]);
 /// Said by itself, it asks for nothing though a verb or a guard stands in it.
 #[rustfmt::skip]
@@ -55,13 +59,16 @@ const PEOPLE: &[&str] = &[
 ];
 
 /// The rest behind sentences of talk, the longest rest first; none where the first sentence is none.
-pub(super) fn without_talk<'a>(lexemes: &'a [Lexeme]) -> impl Iterator<Item = &'a [Lexeme]> {
+pub(super) fn without_talk<'a>(
+    lexemes: &'a [Lexeme],
+    names: &Names<'_>,
+) -> impl Iterator<Item = &'a [Lexeme]> {
     let mut rests = Vec::new();
     let mut from = 0;
     while let Some(end) =
         lexemes[from..].iter().position(|lexeme| lexeme.token == Token::Break).map(|end| from + end)
         && end + 1 < lexemes.len()
-        && is_talk(&lexemes[from..end], &lexemes[end + 1..])
+        && is_talk(&lexemes[from..end], &lexemes[end + 1..], names)
     {
         from = end + 1;
         rests.push(&lexemes[from..]);
@@ -101,12 +108,12 @@ fn is_filled(mut said: &[Lexeme]) -> bool {
 }
 
 /// Whether a sentence is talk before an order of these words.
-fn is_talk(sentence: &[Lexeme], order: &[Lexeme]) -> bool {
+fn is_talk(sentence: &[Lexeme], order: &[Lexeme], names: &Names<'_>) -> bool {
     let parts = sentence.split(|lexeme| lexeme.token == Token::Comma).map(greeted);
     let mut parts = parts.filter(|part| !says_nothing(part) && !is_filled(part)).peekable();
     let tells =
         parts.peek().is_none_or(|first| longest_phrase(first, POLITE).is_some() || tells_something(first));
-    tells && parts.all(asks_for_nothing) && !is_about(sentence, order)
+    tells && parts.all(asks_for_nothing) && !is_about(sentence, order, names)
 }
 
 /// The words without greetings and sounds before them.
@@ -165,8 +172,12 @@ fn asks_for_nothing(said: &[Lexeme]) -> bool {
 }
 
 /// Whether the order is about one of those that the talk told of: then it may say which.
-fn is_about(talk: &[Lexeme], order: &[Lexeme]) -> bool {
+fn is_about(talk: &[Lexeme], order: &[Lexeme], names: &Names<'_>) -> bool {
     (0..talk.len()).any(|at| {
+        if let Some((ids, _)) = names.exact(&talk[at..]) {
+            let named = |at: usize| names.exact(&order[at..]).is_some_and(|(others, _)| others == ids);
+            return (0..order.len()).any(named);
+        }
         let Some((class, words)) = category(&talk[at..]) else { return false };
         // "She'd adore these", "we'll see".
         let begins = at == 0 || is_mark(&talk[at - 1]);
@@ -187,8 +198,10 @@ mod tests {
     use super::*;
 
     fn order(said: &str) -> String {
+        let world = simworld_core::scene::World::new();
+        let names = Names::new(&world, simworld_core::geometry::Point2::origin(), 100.0);
         let lexemes = super::super::hearing::lex_speech(said);
-        let rest = without_talk(&lexemes).last().unwrap_or(&lexemes);
+        let rest = without_talk(&lexemes, &names).last().unwrap_or(&lexemes);
         rest.iter()
             .map(|lexeme| if is_mark(lexeme) { "," } else { word_of(lexeme) })
             .collect::<Vec<_>>()
@@ -219,9 +232,13 @@ mod tests {
             "The red bench is wet. Sit on the bench",
             "I need a chair. Walk to the oak",
             "We never use the bridge. Walk to the oak",
+            "It was the big box that she asked for. Carry the box to the oak",
+            "By chair my gran means a bench. Sit on the bench",
         ] {
+            let world = simworld_core::scene::World::new();
+            let names = Names::new(&world, simworld_core::geometry::Point2::origin(), 100.0);
             let lexemes = lex(said);
-            assert_eq!(without_talk(&lexemes).count(), 0, "{said}");
+            assert_eq!(without_talk(&lexemes, &names).count(), 0, "{said}");
         }
     }
 

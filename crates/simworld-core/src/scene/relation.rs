@@ -126,7 +126,9 @@ fn box_gap(a: &Aabb, b: &Aabb) -> f64 {
 /// Whether the subject lies within what a body takes of the ground, and of the height.
 fn is_inside(subject: &EntityRef<'_>, reference: &EntityRef<'_>) -> bool {
     let (own, around) = (subject.bounds, reference.bounds);
-    if own.min.z < around.min.z || own.max.z > around.max.z || box_gap(own, around) > 0.0 {
+    // Boxes around what is turned are rounded: what stands on the floor is not below it.
+    let is_between = own.min.z >= around.min.z - FLUSH && own.max.z <= around.max.z + FLUSH;
+    if !is_between || box_gap(own, around) > 0.0 {
         return false;
     }
     let (inner, outer) = (subject.footprint(), reference.footprint());
