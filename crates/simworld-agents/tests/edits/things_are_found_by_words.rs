@@ -240,7 +240,11 @@ fn a_scene_turns_to_the_season_that_is_asked_for() {
         SceneEditor::new(Seed(3)).say(words, &mut world).unwrap_or_else(|error| panic!("{words}: {error}"));
         let now = world.environment();
         assert_eq!((before.season, now.season), (None, Some(season)), "{words}");
-        assert_eq!((now.weather.rain, now.weather.snow), (before.weather.rain, before.weather.snow), "{words}");
+        assert_eq!(
+            (now.weather.rain, now.weather.snow),
+            (before.weather.rain, before.weather.snow),
+            "{words}"
+        );
     }
 }
 
