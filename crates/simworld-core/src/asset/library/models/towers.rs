@@ -66,10 +66,10 @@ fn observatory(s: &mut Sculpt, kit: &Kit) {
     s.part("cornice", kit.shade(0.8));
     s.pillar([0.0, 0.0, 0.46 * h], r, 0.05 * h, 28);
     s.part("dome", white());
-    s.ball([0.0, 0.0, 0.5 * h], [0.93 * r, 0.93 * r, 0.497 * h], 12, 28);
+    s.ball([0.0, 0.0, 0.5 * h], [0.93 * r, 0.93 * r, 0.497 * h], 8, 20);
     // A thin shell that stands out of the dome along one meridian alone.
     s.part("slit", dark());
-    s.ball([0.0, 0.0, 0.5 * h], [0.94 * r, 0.09 * r, 0.5 * h], 12, 28);
+    s.ball([0.0, 0.0, 0.5 * h], [0.94 * r, 0.09 * r, 0.5 * h], 8, 20);
     door(s, 0.95 * r, 0.0);
     s.part("windows", glass());
     for [x, y] in around(10).skip(1) {
@@ -121,7 +121,7 @@ fn silo(s: &mut Sculpt, kit: &Kit) {
     s.part("foot", Coating::of(Material::Concrete, [0.36, 0.36, 0.35]));
     s.pillar([0.0; 3], r, 0.015 * h, 28);
     s.part("dome", kit.shade(0.92));
-    s.ball([0.0, 0.0, 0.8 * h], [0.97 * r, 0.97 * r, 0.19 * h], 10, 28);
+    s.ball([0.0, 0.0, 0.8 * h], [0.97 * r, 0.97 * r, 0.19 * h], 8, 20);
     s.pillar([0.0, 0.0, 0.97 * h], 0.1 * r, 0.03 * h, 10);
     s.part("ladder", iron());
     for y in [-0.25, 0.25] {
