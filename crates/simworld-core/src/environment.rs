@@ -10,6 +10,7 @@ pub use preset::{NamedTime, NamedWeather, Preset, UnknownPreset};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::asset::Season;
 use crate::geometry::{Vector2, Vector3};
 use crate::hash::{StateHash, StateHasher};
 use crate::ops;
@@ -174,7 +175,7 @@ impl Default for Weather {
     }
 }
 
-/// Sun, moon and weather of a world.
+/// Sun, moon, weather and season of a world.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Environment {
@@ -184,6 +185,8 @@ pub struct Environment {
     pub weather: Weather,
     /// Where the moon stands.
     pub moon: Moon,
+    /// What plants show that say nothing themselves; none where nobody said, and they look as they were planted.
+    pub season: Option<Season>,
 }
 
 /// The first of fields that is out of its range: name, value, least, most, and the range in words.
@@ -202,7 +205,7 @@ impl Environment {
     /// # Errors
     /// The first field out of range, with what is allowed; NaN is always out of range.
     pub fn validate(&self) -> Result<(), EnvironmentError> {
-        let Self { sun, weather, moon } = self;
+        let Self { sun, weather, moon, season: _ } = self;
         let half_turn = std::f64::consts::FRAC_PI_2;
         let checks = [
             ("sun.azimuth", sun.azimuth, -10.0, 10.0, "an angle within ±10 rad"),
@@ -228,12 +231,16 @@ impl Environment {
 
 impl StateHash for Environment {
     fn state_hash(&self, hasher: &mut StateHasher) {
-        let Self { sun, weather, moon } = self;
+        let Self { sun, weather, moon, season } = self;
         hasher.f64(sun.azimuth).f64(sun.elevation).f64(sun.illuminance);
         hasher.f64(weather.rain).f64(weather.snow).f64(weather.visibility).f64(weather.cloud_cover);
         hasher.f64(weather.wind.x).f64(weather.wind.y).f64(weather.temperature);
         hasher.f64(weather.wetness).f64(weather.puddles).f64(weather.snow_depth);
         hasher.f64(moon.azimuth).f64(moon.elevation).f64(moon.illuminance);
+        // Without one the digest is what it was before there were seasons.
+        if let Some(season) = season {
+            hasher.u64(*season as u64 + 1);
+        }
     }
 }
 
@@ -262,7 +269,7 @@ mod tests {
         let old = r#"{"sun":{"azimuth":1.0,"elevation":0.5,"illuminance":50000.0},
             "weather":{"rain":1.0,"snow":0.0,"visibility":9000.0,"cloud_cover":0.5,"wind":[1.0,0.0],"temperature":8.0}}"#;
         let read: Environment = serde_json::from_str(old).unwrap();
-        assert_eq!((read.weather.snow_depth, read.moon), (0.0, Moon::default()));
+        assert_eq!((read.weather.snow_depth, read.moon, read.season), (0.0, Moon::default(), None));
         assert_eq!(read.sun.elevation, 0.5);
     }
 
@@ -274,13 +281,15 @@ mod tests {
             hasher.finish()
         };
         let plain = digest(&Environment::default());
-        let changes: [fn(&mut Environment); 6] = [
+        let changes: [fn(&mut Environment); 8] = [
             |e| e.weather.wetness = 0.5,
             |e| e.weather.puddles = 0.5,
             |e| e.weather.snow_depth = 0.5,
             |e| e.moon.azimuth = 0.5,
             |e| e.moon.elevation = 0.5,
             |e| e.moon.illuminance = 0.2,
+            |e| e.season = Some(Season::Spring),
+            |e| e.season = Some(Season::Winter),
         ];
         for change in changes {
             let mut environment = Environment::default();

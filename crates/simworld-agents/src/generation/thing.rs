@@ -106,7 +106,7 @@ impl Plan {
 
     /// The main surface, darker by a factor.
     pub(super) fn shaded(&self, factor: f32) -> Finish {
-        Finish { color: [factor; 3], paint: Paint::Entity, density: self.stuff.density() }
+        Finish::dull([factor; 3], Paint::Entity, self.stuff.density())
     }
 
     /// The main surface, a little lighter or darker by chance: boards and stones differ.
@@ -122,7 +122,7 @@ impl Plan {
 
     /// Something with a colour that it keeps.
     pub(super) fn painted(stuff: Stuff, color: [f32; 3]) -> Finish {
-        Finish { color, paint: Paint::Own, density: stuff.density() }
+        Finish::dull(color, Paint::Own, stuff.density())
     }
 
     /// The second colour, or another where none is said.

@@ -226,6 +226,28 @@ fn plants_come_in_the_season_that_is_asked_for() {
     }
 }
 
+/// A season is one of the whole scene; what falls and which hour it is stays as it was.
+#[test]
+fn a_scene_turns_to_the_season_that_is_asked_for() {
+    for (words, season) in [
+        ("make it autumn", Season::Autumn),
+        ("make it winter", Season::Winter),
+        ("make it a spring morning", Season::Spring),
+        ("make it summer", Season::Summer),
+    ] {
+        let mut world = town();
+        let before = *world.environment();
+        SceneEditor::new(Seed(3)).say(words, &mut world).unwrap_or_else(|error| panic!("{words}: {error}"));
+        let now = world.environment();
+        assert_eq!((before.season, now.season), (None, Some(season)), "{words}");
+        assert_eq!(
+            (now.weather.rain, now.weather.snow),
+            (before.weather.rain, before.weather.snow),
+            "{words}"
+        );
+    }
+}
+
 #[test]
 fn another_asset_of_the_name_is_kept_apart() {
     let mut world = town();

@@ -44,6 +44,7 @@ impl Catalogue {
 
     /// Everything that comes with the crate: the ordinary things of a street, then 180 more of streets, parks, playgrounds and building
     /// sites, 31 plants, 40 vehicles, 30 people, animals and robots, 100 kinds of buildings and the 124 of the Python release.
+    /// Those whose kind says little of what they look like have a model, which all catalogues share.
     pub fn library() -> Self {
         Self::of_sound(standard::assets().chain(library::assets()))
     }

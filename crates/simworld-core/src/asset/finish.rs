@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::image::Content;
+use super::material::Material;
 
 /// The brightest light that a part may have of its own, in each channel of [`Finish::emission`].
 pub const BRIGHTEST: f32 = 1000.0;
@@ -23,6 +24,40 @@ pub struct Finish {
     pub roughness: f32,
     /// Light of its own, linear-light sRGB primaries from 0 to [`BRIGHTEST`]. 1 is as bright as the glass of a lit lamp.
     pub emission: [f32; 3],
+}
+
+/// How much the channels of a grey may differ, and how many times as light or dark as bare metal it may be to be taken for that.
+const GREY: f32 = 0.06;
+const LIKE: f32 = 1.3;
+/// Perceptual roughness of paint on metal, as renderers set it; not measured.
+const PAINT: f32 = 0.5;
+
+impl Finish {
+    /// How a surface of a material in a colour (linear-light sRGB) takes light: as rough as the [material](Material::roughness) is, and as metal
+    /// where the colour is that of bare metal, a grey about as light as its [reflectance](Material::reflectance). Metal of another colour is
+    /// painted.
+    ///
+    /// ```
+    /// use simworld_core::asset::{Finish, Material};
+    /// let [steel, red] = [[0.55, 0.56, 0.58], [0.5, 0.04, 0.03]].map(|color| Finish::of(Material::Metal, color));
+    /// assert!(steel.metallic == 1.0 && red.metallic == 0.0 && steel.roughness < red.roughness);
+    /// assert!(Finish::of(Material::Glass, [0.3; 3]).roughness < Finish::of(Material::Brick, [0.3; 3]).roughness);
+    /// ```
+    pub fn of(material: Material, color: [f32; 3]) -> Self {
+        let roughness = material.roughness() as f32;
+        if material != Material::Metal {
+            return Self { roughness, ..Self::default() };
+        }
+        let [low, high] = color
+            .iter()
+            .fold([f32::MAX, 0.0], |[low, high], channel| [low.min(*channel), high.max(*channel)]);
+        let lightness = (low + high) * 0.5 / material.reflectance() as f32;
+        if high - low <= GREY && (1.0 / LIKE..=LIKE).contains(&lightness) {
+            Self { metallic: 1.0, roughness, ..Self::default() }
+        } else {
+            Self { roughness: PAINT, ..Self::default() }
+        }
+    }
 }
 
 impl Default for Finish {

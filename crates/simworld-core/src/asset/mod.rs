@@ -1,6 +1,6 @@
 //! Assets: the kinds of things that a world is built with, each with its collider, mass, colour and the words by which
 //! people ask for it. Metres, kilograms, linear-light sRGB. An asset may bring a model of its own; the others are drawn by a
-//! renderer as it draws their kind, and met as their collider.
+//! renderer as it draws their kind, and met as their collider. [`sculpt`] makes models from solids.
 
 mod affordance;
 mod catalogue;
@@ -13,6 +13,7 @@ mod model;
 mod model_error;
 mod rig;
 mod row;
+pub mod sculpt;
 mod season;
 mod standard;
 

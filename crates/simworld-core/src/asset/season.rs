@@ -31,6 +31,22 @@ impl Season {
             Self::Winter => "winter",
         }
     }
+
+    /// The season of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|season| season.as_str() == name)
+    }
+
+    /// The season on the other half of the globe at the same time.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Spring => Self::Autumn,
+            Self::Summer => Self::Winter,
+            Self::Autumn => Self::Spring,
+            Self::Winter => Self::Summer,
+        }
+    }
 }
 
 impl fmt::Display for Season {

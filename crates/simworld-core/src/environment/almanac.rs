@@ -7,7 +7,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Environment, EnvironmentError, Moon, Sun};
+use crate::asset::Season;
 use crate::ops;
+
+/// The first days of spring, summer, autumn and winter by the meteorologists' calendar, on the northern half of the globe and in years of
+/// 365 days: those of March, June, September and December.
+const FIRST_DAYS: [u32; 4] = [60, 152, 244, 335];
+/// Between the tropics the sun is in the zenith twice a year, and no leaves fall for cold, radians.
+const TROPIC: f64 = 23.44 * std::f64::consts::PI / 180.0;
 
 /// A moment at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,6 +87,31 @@ impl Moment {
         super::within(&checks)
     }
 
+    /// The season by the calendar of meteorologists (whole months from March on), half a year later on the southern half of the globe; none
+    /// between the tropics.
+    ///
+    /// ```
+    /// use simworld_core::asset::Season;
+    /// use simworld_core::environment::{Moment, day_of_year};
+    /// let october = Moment { day_of_year: day_of_year(2026, 10, 20).unwrap(), ..Moment::default() };
+    /// assert_eq!(october.season(), Some(Season::Autumn));
+    /// assert_eq!(Moment { latitude: -0.6, ..october }.season(), Some(Season::Spring));
+    /// assert_eq!(Moment { latitude: 0.1, ..october }.season(), None);
+    /// ```
+    pub fn season(&self) -> Option<Season> {
+        // A leap day is one more of winter, and all behind it come a day later.
+        let day = self.day_of_year - u32::from(is_leap(self.year) && self.day_of_year >= FIRST_DAYS[0]);
+        let rank = FIRST_DAYS.iter().rposition(|first| *first <= day);
+        let northern = rank.map_or(Season::Winter, |rank| Season::ALL[rank]);
+        if self.latitude.abs() <= TROPIC {
+            None
+        } else if self.latitude < 0.0 {
+            Some(northern.opposite())
+        } else {
+            Some(northern)
+        }
+    }
+
     /// Days from noon of 1 January 2000, UTC.
     fn days(&self) -> f64 {
         let years = self.year - 2000;
@@ -138,21 +170,23 @@ impl Moment {
 }
 
 impl Environment {
-    /// Sets sun and moon to where they stand at a moment; the weather stays.
+    /// Sets sun and moon to where they stand at a moment, and the [season](Moment::season); the weather stays.
     ///
     /// # Errors
     /// A moment out of range.
     ///
     /// ```
+    /// use simworld_core::asset::Season;
     /// use simworld_core::environment::{Environment, Moment};
     /// let mut environment = Environment::default();
     /// environment.set_moment(&Moment { hour: 19.5, ..Moment::default() })?;
     /// assert!(environment.sun.elevation < 0.0, "the sun has set");
+    /// assert_eq!(environment.season, Some(Season::Summer));
     /// # Ok::<(), simworld_core::environment::EnvironmentError>(())
     /// ```
     pub fn set_moment(&mut self, moment: &Moment) -> Result<(), EnvironmentError> {
         moment.validate()?;
-        (self.sun, self.moon) = (moment.sun(), moment.moon());
+        (self.sun, self.moon, self.season) = (moment.sun(), moment.moon(), moment.season());
         Ok(())
     }
 }
@@ -327,6 +361,30 @@ mod tests {
             south.azimuth.to_degrees() < 5.0 || south.azimuth.to_degrees() > 355.0,
             "it stands in the north"
         );
+    }
+
+    #[test]
+    fn seasons_begin_with_their_months() {
+        use Season::{Autumn, Spring, Summer, Winter};
+        for (year, month, day, season) in [
+            (2026, 1, 1, Winter),
+            (2026, 2, 28, Winter),
+            (2024, 2, 29, Winter),
+            (2026, 3, 1, Spring),
+            (2024, 3, 1, Spring),
+            (2024, 5, 31, Spring),
+            (2026, 6, 1, Summer),
+            (2024, 9, 1, Autumn),
+            (2026, 11, 30, Autumn),
+            (2024, 12, 1, Winter),
+            (2024, 12, 31, Winter),
+        ] {
+            let moment = at_greenwich(year, month, day, 12.0);
+            assert_eq!(moment.season(), Some(season), "{year}-{month}-{day}");
+            let south = Moment { latitude: -moment.latitude, ..moment };
+            assert_eq!(south.season(), Some(season.opposite()), "{year}-{month}-{day}");
+        }
+        assert_eq!(Moment { latitude: 0.2, ..Moment::default() }.season(), None);
     }
 
     #[test]

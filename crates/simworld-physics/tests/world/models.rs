@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::common::{Stage, at};
 use nalgebra::UnitQuaternion;
-use simworld_core::asset::{Asset, Hull, Material, Model, ModelPart, ModelVertex};
+use simworld_core::asset::{Asset, Catalogue, Hull, Material, Model, ModelPart, ModelVertex};
 use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
@@ -159,4 +159,53 @@ fn a_save_goes_on_bit_for_bit() {
     };
     assert_eq!(hash(&stage), hash(&other));
     assert_eq!(stage.position(id), other.position(id));
+}
+
+fn of_library(name: &str) -> Asset {
+    let library = Catalogue::library();
+    library.find(name).and_then(|id| library.get(id)).unwrap_or_else(|| panic!("no {name}")).clone()
+}
+
+/// A ball goes through the archway of the library, and not through its piers.
+#[test]
+fn one_goes_through_an_archway_and_not_through_a_pier() {
+    let mut stage = Stage::new();
+    put(&mut stage, &of_library("archway"), at(0.0, 0.0, 0.0), 1.0);
+    let [through, against] = [0.0, 1.6].map(|y| {
+        let pose = pose_facing(Point3::new(-2.0, y, 0.0), 0.0);
+        let mut start = EntityDesc::new(EntityKind::Prop, pose, Shape::Sphere { radius: 0.3 });
+        start.twist.linear = Vector3::new(3.0, 0.0, 0.0);
+        let id = stage.world.spawn(start).unwrap();
+        stage.physics.add_rigid(&stage.world, id).unwrap();
+        id
+    });
+    stage.run(20);
+    assert!(stage.position(through).x > 1.0, "{}", stage.position(through));
+    assert!(stage.position(against).x < 0.0, "{}", stage.position(against));
+}
+
+/// Every model of the library is a solid for the engine, and what is no luggage stands where it is put.
+#[test]
+fn the_things_of_the_library_stand() {
+    let mut stage = Stage::new();
+    let library = Catalogue::library();
+    let modelled: Vec<&Asset> =
+        library.iter().map(|(_, asset)| asset).filter(|asset| asset.model.is_some()).collect();
+    let mut standing = Vec::new();
+    for (rank, asset) in modelled.iter().enumerate() {
+        let place = Point3::new(60.0 * (rank % 8) as f64, 60.0 * (rank / 8) as f64, 0.0);
+        let id = put(&mut stage, asset, pose_facing(place, 0.3), 1.0);
+        if asset.mass.is_some() {
+            stage.physics.add_rigid(&stage.world, id).unwrap();
+        }
+        if asset.mass.is_some() && asset.kind != EntityKind::Parcel {
+            standing.push((asset.name.as_str(), id, place));
+        }
+    }
+    stage.run(30);
+    assert!(standing.len() >= 15, "{}", standing.len());
+    for (name, id, place) in standing {
+        let (off, up) = ((stage.position(id) - place).norm(), stage.up(id));
+        assert!(off < 0.15 && up > 0.95, "{name} is {off} m off, and its top is {up} up");
+    }
 }

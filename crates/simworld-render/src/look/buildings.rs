@@ -153,7 +153,7 @@ struct Fitter<'a> {
 impl Fitter<'_> {
     fn put(&mut self, mesh: MeshId, size: [f64; 3], at: [f64; 3], color: Color) {
         let scale = size.map(|component| component as f32);
-        let look = Look { mesh, scale, color, state: 0.0, ..*self.body };
+        let look = Look { mesh, scale, color, state: 0.0, param: 0.0, ..*self.body };
         let place = Pose::from_parts(Vector3::from(at).into(), UnitQuaternion::identity());
         self.parts.push(Part { look, place });
     }

@@ -3,6 +3,8 @@
 mod afar;
 mod buildings;
 mod creatures;
+#[cfg(test)]
+mod library_tests;
 mod links;
 mod people;
 mod posture;
@@ -12,13 +14,14 @@ mod things;
 mod trees;
 mod vehicles;
 
+use simworld_core::asset::Finish;
 use simworld_core::geometry::Pose;
 use simworld_core::id::AssetId;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
 
-use crate::mesh::{Drawn, MeshId, ModelId};
+use crate::mesh::{Drawn, MeshId, ModelId, Pattern};
 use crate::resident;
 use crate::sources::{LinkModels, Source, model_of};
 use street::Streets;
@@ -93,12 +96,10 @@ pub(crate) struct Look {
     /// Signals: 1 red, 2 yellow, 3 green, 0 dark. Buildings: 1 with a shop front, 2 with a
     /// pitched roof. Roads: 1 if the network says what is painted on them; marks on roads: see `street`.
     pub state: f32,
-    /// Buildings: storeys. Marks on roads: see `street`.
+    /// Buildings: storeys. Marks on roads: see `street`. Things: see [`made_of`].
     pub param: f32,
 }
 
-const LEAVES: [[f32; 3]; 5] =
-    [[0.085, 0.17, 0.045], [0.12, 0.2, 0.05], [0.065, 0.14, 0.05], [0.16, 0.22, 0.055], [0.1, 0.16, 0.065]];
 /// Draws the variation of entities: the same id looks the same in every picture.
 pub(crate) struct Looks {
     variation: Stream,
@@ -142,10 +143,14 @@ impl Looks {
             kind if kind.is_vehicle() => vehicles::dress,
             _ => {
                 let mut look = self.of(entity, scene.signals());
+                if entity.kind == EntityKind::Shrub {
+                    look.color = trees::shrub_color(entity, scene, bits);
+                }
                 if let Some(mesh) = asset_name(entity, scene).and_then(things::named) {
                     let second = pick(&people::CLOTHES, bits >> 12);
                     look = Look { mesh, second, ..metric(&look) };
                 }
+                made_of(&mut look, entity, scene);
                 let surface = out.len();
                 out.push(whole(Drawn::Own(look.mesh), look));
                 self.streets.dress(entity, scene, &mut look, out);
@@ -215,6 +220,19 @@ impl Looks {
     }
 }
 
+/// How the body of a thing takes light, by what it is made of, as materials.wgsl reads it: its roughness, and 2 more where it is bare metal; 0,
+/// which is dull, where nobody knows what it is made of. A prop of nobody's colour is grey, as light as its material. Patterns have another
+/// parameter, and paint themselves.
+fn made_of(look: &mut Look, entity: &EntityRef<'_>, scene: &dyn Scene) {
+    let material = entity.material(scene).filter(|_| look.mesh.pattern() == Pattern::Plain);
+    let Some(material) = material else { return };
+    if entity.kind == EntityKind::Prop && entity.info.color.is_none() {
+        look.color = [material.reflectance() as f32; 3];
+    }
+    let finish = Finish::of(material, look.color);
+    look.param = finish.roughness + 2.0 * finish.metallic;
+}
+
 /// The look of what is drawn as a model: by where that comes from shaders find how its parts take light. What stands where other meshes have
 /// their offsets is none, so their unit is zero.
 fn as_model(source: Source, look: Look) -> Look {
@@ -279,7 +297,7 @@ fn pick<T: Copy, const N: usize>(entries: &[T; N], bits: u64) -> T {
 
 fn dress(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect], bits: u64) {
     match entity.kind {
-        EntityKind::Shrub => *look = Look { mesh: MeshId::Shrub, color: pick(&LEAVES, bits), ..fitted(look) },
+        EntityKind::Shrub => *look = Look { mesh: MeshId::Shrub, ..fitted(look) },
         EntityKind::StreetLamp => {
             *look = Look { mesh: MeshId::Lamp, color: [0.05, 0.06, 0.06], ..metric(look) };
         }

@@ -5,6 +5,8 @@ use crate::mesh::MeshId;
 /// Words in names of assets and the meshes they stand for; the first that fits is taken.
 const NAMED: &[(&[&str], MeshId)] = &[
     (&["bollard", "delineator", "parking_meter", "sundial"], MeshId::Bollard),
+    (&["hoop"], MeshId::Frame),
+    (&["football", "basketball"], MeshId::Ball),
     (&["barrel", "drum", "metal_can", "soda", "bottle", "bucket", "cup"], MeshId::Barrel),
     (&["planter"], MeshId::Planter),
     (&["picket"], MeshId::PicketFence),

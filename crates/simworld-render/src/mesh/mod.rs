@@ -215,6 +215,7 @@ meshes! {
     Flag = Plain, signs::flag();
     Frame = Plain, things::frame();
     Boat = Plain, things::boat();
+    Ball = Plain, things::ball();
     SpeckPerson = Plain, specks::person();
     SpeckLamp = Plain, specks::lamp();
     SpeckCar = Plain, specks::car();
@@ -222,8 +223,10 @@ meshes! {
     SpeckBin = Plain, specks::bin();
     SpeckBench = Plain, specks::bench();
     SpeckUnit = Plain, specks::roof_unit();
+    SpeckBare = Plain, specks::bare();
     Bare = Plain, species::bare(2);
     CoarseBare = Plain, species::bare(1);
+    FarBare = Plain, species::bare(0);
     Cuboid = Plain, primitives::cuboid();
     Cylinder = Plain, primitives::cylinder();
     Capsule = Plain, primitives::capsule();

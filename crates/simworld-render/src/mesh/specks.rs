@@ -20,6 +20,7 @@ impl MeshId {
             Self::Lamp => (60.0, Self::SpeckLamp),
             Self::FarCar => (15.0, Self::SpeckCar),
             Self::FarCrown => (44.0, Self::SpeckCrown),
+            Self::FarBare => (44.0, Self::SpeckBare),
             Self::CoarseWheel => (55.0, Self::SpeckWheel),
             Self::TrashBin => (22.0, Self::SpeckBin),
             Self::Bench => (16.0, Self::SpeckBench),
@@ -73,6 +74,16 @@ pub(crate) fn crown() -> Builder {
     mesh.cuboid(unit(-0.022, -0.022, 0.0), unit(0.022, 0.022, 0.4), Material::Wood);
     let middle = unit(0.0, 0.0, 0.66);
     mesh.ball([middle, middle], [0.25, 0.25, 0.34], 4, 5, Material::Body);
+    mesh
+}
+
+/// A trunk and three boughs.
+pub(crate) fn bare() -> Builder {
+    let mut mesh = Builder::new([0.5, 0.5, 1.0], 1.0);
+    mesh.cuboid(unit(-0.02, -0.02, 0.0), unit(0.02, 0.02, 0.72), Material::Wood);
+    for [x, y] in [[0.15, 0.05], [-0.12, 0.1], [-0.02, -0.16]] {
+        mesh.tube([unit(0.0, 0.0, 0.38), unit(x, y, 0.66)], [0.012, 0.006], 3, Material::Wood);
+    }
     mesh
 }
 

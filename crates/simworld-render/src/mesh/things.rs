@@ -1,6 +1,8 @@
 //! Things of streets, parks and building sites, fitted to their boxes. Offsets in metres; what faces somebody faces +x.
 
-use super::builder::{Builder, Material, V3, share};
+use simworld_core::ops;
+
+use super::builder::{Builder, Material, P, Ring, V3, share};
 use super::primitives::{BOTTOM, HIGH, LOW, TOP};
 
 pub(super) fn metric() -> Builder {
@@ -430,6 +432,27 @@ pub(crate) fn boat() -> Builder {
     mesh.hexa(bow, stem, Material::Body);
     for x in [-0.25, 0.05] {
         mesh.cuboid(share(x, -0.45, 0.9), share(x + 0.08, 0.45, 0.96), Material::Wood);
+    }
+    mesh
+}
+
+/// A ball with seams round its middle and from pole to pole.
+pub(crate) fn ball() -> Builder {
+    let mut mesh = metric();
+    let place = |[x, y, z]: V3| share(x, y, z);
+    let standing = |[x, y, z]: V3| share(z - 0.5, x, y + 0.5);
+    let ring = |k: u8| -> Ring {
+        let (sin, cos) = ops::sin_cos(std::f64::consts::PI * f64::from(k) / 12.0);
+        let radius = if k == 0 || k == 12 { 0.0 } else { 0.494 * sin as f32 };
+        [0.5 - 0.494 * cos as f32, radius, radius, 0.0]
+    };
+    let rings: Vec<Ring> = (0..=12).map(ring).collect();
+    mesh.lathe(&rings, 16, Material::Body, &place);
+    // The seams are bands that stand out of it by a hair.
+    for seam in [&place as &dyn Fn(V3) -> P, &standing] {
+        let band =
+            [[0.488, 0.0, 0.0, 0.0], [0.488, 0.5, 0.5, 0.0], [0.512, 0.5, 0.5, 0.0], [0.512, 0.0, 0.0, 0.0]];
+        mesh.lathe(&band, 16, Material::Dark, seam);
     }
     mesh
 }

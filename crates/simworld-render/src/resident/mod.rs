@@ -15,6 +15,7 @@ use std::sync::Arc;
 use bounds::{ball_of, casts};
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
+use simworld_core::asset::Season;
 use simworld_core::clock::Tick;
 use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
 use simworld_core::id::EntityId;
@@ -137,6 +138,7 @@ pub(crate) struct Residents {
     heads: Vec<u32>,
     free: u32,
     mark: Option<Mark>,
+    season: Option<Season>,
     signals: Vec<Aspect>,
     /// Slots of those that show signals.
     signalling: BTreeSet<u32>,
@@ -160,6 +162,11 @@ impl Residents {
     /// Follows the scene; `region` is what is looked at of scenes that keep no account of what changes.
     pub(crate) fn follow(&mut self, scene: &dyn Scene, region: &Aabb) {
         let repainted = self.looks.follow(scene);
+        let season = scene.environment().season;
+        if std::mem::replace(&mut self.season, season) != season {
+            // Whatever grows looks otherwise.
+            self.forget();
+        }
         let mark = scene.mark();
         let mut slots = std::mem::take(&mut self.slots);
         slots.clear();

@@ -102,7 +102,7 @@ fn hit_of(met: Met, number: u32, triangle: u32, direction: vec3f) -> Hit {
         glow = touched.spot.glow;
         bumped = touched.normal;
     } else {
-        finish = finish_of(met.material, i.color, i.second, i.scale.w);
+        finish = finish_of(met.material, i.color, i.second, i.scale.w, met.pattern == 0u);
     }
     let extra = vec2f(i.color.w, i.second.w);
     let footprint = footprint_of(steps, i.rotation);

@@ -26,7 +26,7 @@ struct Varyings {
 @vertex
 fn vertex_main(corner: Corner) -> Varyings {
     let in = vertex_of(corner);
-    let finish = finish_of(in.material, in.color, in.second, in.scale.w);
+    let finish = finish_of(in.material, in.color, in.second, in.scale.w, PATTERN == 0u);
     let relative = relative_point(in);
     var out: Varyings;
     out.position = clip_of(relative, layer_of(in) + select(0.0, mark_layer(in.color.w), PATTERN == 7u));

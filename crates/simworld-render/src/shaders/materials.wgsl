@@ -15,9 +15,18 @@ fn matte(albedo: vec3f) -> Finish {
     return Finish(albedo, 0.0, 0.0, 0.85, 0.0);
 }
 
-// The materials of mesh/builder.rs; `color` and `second` are those of the instance,
-// with its state in the w of the first.
-fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32) -> Finish {
+// The body of a thing, by the code of look/mod.rs: its roughness, and 2 more where it is bare metal; dull without one.
+fn made_of(albedo: vec3f, code: f32) -> Finish {
+    if (code <= 0.0) {
+        return matte(albedo);
+    }
+    let metallic = f32(code >= 2.0);
+    return Finish(albedo, 0.0, 0.0, clamp(code - 2.0 * metallic, 0.03, 1.0), metallic);
+}
+
+// The materials of mesh/builder.rs; `color` and `second` are those of the instance, with its state in the w of the first and, where no pattern
+// paints it, what it is made of in that of the other.
+fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32, plain: bool) -> Finish {
     let night = globals.sun_direction.w;
     let aspect = color.w;
     let skin = mix(vec3f(0.42, 0.24, 0.15), vec3f(0.72, 0.47, 0.33), fract(seed * 11.0));
@@ -40,6 +49,6 @@ fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32) -> Finish {
         case 15u: { return Finish(vec3f(0.03, 0.031, 0.034), 0.0, 0.1, 0.5, 0.0); }
         case 16u: { return Finish(color.rgb, 0.0, 0.5, 0.5, 0.0); }
         case 17u: { return matte(vec3f(0.08, 0.16, 0.045)); }
-        default: { return matte(color.rgb); }
+        default: { return made_of(color.rgb, select(0.0, second.w, plain)); }
     }
 }

@@ -1,6 +1,7 @@
 //! What light and weather promise: Koschmieder's law, colours of lamps, and that depth and ids never notice.
 
 use crate::common::{draw, looking_east, put, renderer, square, square_camera};
+use simworld_core::asset::Season;
 use simworld_core::environment::{Environment, Preset};
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
@@ -126,6 +127,32 @@ fn what_falls_falls_by_the_clock() {
     world.begin_step();
     world.finish_step();
     assert_ne!(first.rgb, draw(&mut renderer, &world, &camera).rgb, "a tenth of a second later");
+}
+
+/// Trees turn with the season of their scene, also where the renderer has drawn them before, and turn back.
+#[test]
+fn trees_turn_with_the_season() {
+    let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
+    let mut world = World::new();
+    for k in 0..6_u8 {
+        // Some are conifers by chance.
+        let at = [14.0, 4.0 * (f64::from(k) - 2.5), 0.0];
+        put(&mut world, EntityKind::Tree, at, 0.0, Shape::Cylinder { radius: 0.15, height: 6.0 });
+    }
+    let camera = looking_east(2.5, 129, 97);
+    let mut in_season = |season| {
+        let environment = Environment { season, ..Environment::default() };
+        world.set_environment(environment).expect("in range");
+        draw(&mut renderer, &world, &camera)
+    };
+    let before = in_season(None);
+    let autumn = in_season(Some(Season::Autumn));
+    assert_ne!(before.rgb, autumn.rgb, "leaves turn");
+    assert_eq!((&before.depth, &before.ids), (&autumn.depth, &autumn.ids), "and keep their shape");
+    let seen = |frame: &Frame| frame.ids.iter().filter(|id| **id != 0).count();
+    let winter = in_season(Some(Season::Winter));
+    assert!(seen(&winter) < seen(&autumn), "one looks through twigs");
+    assert_eq!(before.rgb, in_season(None).rgb);
 }
 
 /// Under a street lamp it is brighter than between two.

@@ -8,7 +8,7 @@ use simworld_core::net::LaneDirection;
 use super::super::clause::Reference;
 use super::resolve::Finder;
 use super::wish::{StreetRef, Wish};
-use super::words::Sky;
+use super::words::{Sky, warmth_of};
 use super::{Focus, view_of};
 use crate::editing::{Edit, EditError};
 
@@ -154,6 +154,10 @@ fn is_so(now: &Environment, sky: Sky) -> bool {
         Sky::Windy(speed) => weather.wind.norm() >= speed * 0.5,
         Sky::Warmth(degrees) if degrees < 15.0 => weather.temperature <= degrees,
         Sky::Warmth(degrees) => weather.temperature >= degrees,
+        // Where nobody said which it is, it is told by the air.
+        Sky::Season(season) => {
+            now.season.map_or_else(|| is_so(now, Sky::Warmth(warmth_of(season))), |now| now == season)
+        }
         Sky::Hour(hour) if (6.0..19.0).contains(&hour) => !is_dark,
         Sky::Hour(_) => is_dark,
     }
@@ -176,5 +180,6 @@ fn told(now: &Environment) -> String {
     let sun = now.sun.elevation.to_degrees();
     let light =
         if sun < 0.0 { "the sun is down".to_owned() } else { format!("the sun stands {sun:.0}° high") };
-    format!("{falls}, {:.0} °C, {light}", weather.temperature)
+    let season = now.season.map_or_else(String::new, |season| format!(", {season}"));
+    format!("{falls}, {:.0} °C, {light}{season}", weather.temperature)
 }

@@ -1,4 +1,4 @@
-//! Weather and time of day in words.
+//! Weather, season and time of day in words.
 
 use simworld_core::environment::{Environment, Sun};
 
@@ -7,7 +7,7 @@ use super::super::lexicon::{fits, longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
 use super::parse::Reader;
-use super::words::{ENDINGS, SKIES, SKY_NOISE, Sky};
+use super::words::{ENDINGS, SKIES, SKY_NOISE, Sky, warmth_of};
 
 /// Before what is to stop.
 #[rustfmt::skip]
@@ -215,7 +215,7 @@ pub(in crate::language) fn hour(lexemes: &[Lexeme]) -> Option<(Sky, usize)> {
     (0.0..=24.0).contains(&hour).then_some((Sky::Hour(hour % 24.0), at))
 }
 
-/// Sun and weather as they are wished for.
+/// Sun, weather and season as they are wished for.
 pub(in crate::language) fn changed(mut now: Environment, skies: &[Sky]) -> Environment {
     let weather = &mut now.weather;
     let mut hour = None;
@@ -237,6 +237,9 @@ pub(in crate::language) fn changed(mut now: Environment, skies: &[Sky]) -> Envir
             Sky::NoFog => weather.visibility = 20_000.0,
             Sky::Windy(speed) => weather.wind = simworld_core::geometry::Vector2::new(speed, 0.0),
             Sky::Warmth(degrees) => weather.temperature = degrees,
+            Sky::Season(season) => {
+                (now.season, weather.temperature) = (Some(season), warmth_of(season));
+            }
             Sky::Hour(at) => hour = Some(at),
         }
     }

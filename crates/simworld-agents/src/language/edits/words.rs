@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use simworld_core::asset::Season;
 use simworld_core::scene::Relation;
 
 use super::super::phrases::{Index, Phrases};
@@ -329,7 +330,7 @@ const FACTOR_ROWS: &[(&[&str], f64)] = &[
     (&["much smaller", "tiny", "a lot smaller", "way smaller"], 0.5),
 ];
 
-/// A change of sun or weather.
+/// A change of sun, weather or season.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::language) enum Sky {
     Rain(f64),
@@ -344,6 +345,18 @@ pub(in crate::language) enum Sky {
     Windy(f64),
     /// Air temperature, °C.
     Warmth(f64),
+    /// What plants show, with the air that goes with it.
+    Season(Season),
+}
+
+/// Air temperature that goes with a season, °C.
+pub(super) const fn warmth_of(season: Season) -> f64 {
+    match season {
+        Season::Spring => 13.0,
+        Season::Summer => 26.0,
+        Season::Autumn => 9.0,
+        Season::Winter => -2.0,
+    }
 }
 
 pub(in crate::language) static SKIES: LazyLock<Index<Sky>> = LazyLock::new(|| Index::of(SKY_ROWS));
@@ -367,12 +380,15 @@ pub(in crate::language) const SKY_ROWS: &[(&[&str], Sky)] = &[
         "nice and sunny", "blue sky", "blue skies", "sun come out", "sun comes out", "sun to come out", "sun is shining", "cloud free", "without a cloud", "not a cloud in the sky", "fair weather", "clear up the weather", "clear up the sky", "sunlight", "sunny weather", "brilliant sunshine", "glorious sunshine"], Sky::Clear),
     (&["cloudy", "overcast", "clouds", "grey sky", "gray sky", "clouded"], Sky::Cloudy),
     (&["windy", "wind", "breezy"], Sky::Windy(10.0)),
-    (&["winter", "wintry", "freezing", "icy", "frosty", "in winter", "winter time", "in the winter"], Sky::Warmth(-2.0)),
+    (&["winter", "wintry", "in winter", "winter time", "in the winter"], Sky::Season(Season::Winter)),
+    (&["freezing", "icy", "frosty"], Sky::Warmth(-2.0)),
     (&["cold", "chilly"], Sky::Warmth(2.0)),
-    (&["autumn", "autumnal", "in autumn", "in fall", "in the fall", "cool"], Sky::Warmth(9.0)),
-    (&["spring", "in spring", "springtime", "mild"], Sky::Warmth(13.0)),
+    (&["autumn", "autumnal", "in autumn", "in fall", "in the fall"], Sky::Season(Season::Autumn)),
+    (&["cool"], Sky::Warmth(9.0)),
+    (&["spring", "in spring", "springtime"], Sky::Season(Season::Spring)),
+    (&["mild"], Sky::Warmth(13.0)),
     (&["warm"], Sky::Warmth(22.0)),
-    (&["summer", "summery", "in summer", "in the summer"], Sky::Warmth(26.0)),
+    (&["summer", "summery", "in summer", "in the summer"], Sky::Season(Season::Summer)),
     (&["hot", "very hot"], Sky::Warmth(32.0)),
     (&["dawn", "sunrise", "daybreak", "first light", "sun rise", "sun rises", "sun come up", "sun comes up", "sun to rise", "sun to come up", "crack of dawn", "rising sun", "sun rising", "sun up", "break of day"], Sky::Hour(6.0)),
     (&["morning", "early morning", "breakfast time"], Sky::Hour(8.0)),

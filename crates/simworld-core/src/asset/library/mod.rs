@@ -3,6 +3,7 @@
 mod buildings;
 mod characters;
 mod furniture;
+mod models;
 mod props;
 mod released;
 mod vegetation;
@@ -50,8 +51,13 @@ const ELEMENTS: &[(&str, &str)] = &[
     ("bp_school", "building_88"),
 ];
 
-/// The assets of all tables, in an order that never changes.
+/// The assets of all tables, in an order that never changes, with their models.
 pub(super) fn assets() -> impl Iterator<Item = Asset> {
+    rows().map(|row| models::modelled(row.asset()))
+}
+
+/// The rows of all tables.
+fn rows() -> impl Iterator<Item = &'static Row> {
     let tables = [
         furniture::ROWS,
         props::ROWS,
@@ -61,7 +67,7 @@ pub(super) fn assets() -> impl Iterator<Item = Asset> {
         buildings::ROWS,
         released::ROWS,
     ];
-    tables.into_iter().flatten().map(Row::asset)
+    tables.into_iter().flatten()
 }
 
 /// The name here of a class of the Python release, such as `BP_Building_07_C`; none if it names no asset.

@@ -6,7 +6,7 @@
 
 use super::super::row::{Row, boxed, fixed, round, row};
 use super::super::{Affordance, Material};
-use crate::scene::EntityKind;
+use crate::scene::{EntityKind, Shape};
 
 use Affordance::{Carry, Open, PickUp, Sit};
 use EntityKind::{Cone, Parcel, Prop, Table};
@@ -43,8 +43,8 @@ pub(super) const ROWS: &[Row] = &[
     row("laptop", Parcel, boxed(0.32, 0.22, 0.02), 1.5, Metal, [0.55, 0.56, 0.58], &["computer", "notebook"]),
     row("toolbox", Parcel, boxed(0.45, 0.22, 0.25), 8.0, Metal, [0.5, 0.04, 0.03], &["tools", "case"]).can(&[PickUp, Carry, Open]),
     row("bucket", Parcel, round(0.15, 0.3), 1.0, Plastic, [0.05, 0.13, 0.45], &["pail", "water"]),
-    row("football", Parcel, round(0.11, 0.22), 0.43, Rubber, [0.8, 0.8, 0.79], &["ball", "soccer", "game"]),
-    row("basketball", Parcel, round(0.12, 0.24), 0.62, Rubber, [0.75, 0.25, 0.03], &["ball", "game"]),
+    row("football", Parcel, Shape::Sphere { radius: 0.11 }, 0.43, Rubber, [0.8, 0.8, 0.79], &["ball", "soccer", "game"]),
+    row("basketball", Parcel, Shape::Sphere { radius: 0.12 }, 0.62, Rubber, [0.75, 0.25, 0.03], &["ball", "game"]),
     row("guitar", Parcel, boxed(1.0, 0.38, 0.12), 2.2, Wood, [0.34, 0.22, 0.12], &["music", "instrument", "busker"]),
     row("bouquet", Parcel, round(0.15, 0.4), 0.5, Foliage, [0.55, 0.3, 0.28], &["flowers", "gift"]),
     row("fire_extinguisher", Parcel, round(0.08, 0.55), 9.0, Metal, [0.5, 0.04, 0.03], &["emergency", "safety"]),

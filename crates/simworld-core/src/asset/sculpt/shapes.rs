@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use simworld_core::ops;
+use crate::ops;
 
 use super::loft::{Ends, Hulls, Loft, Shade};
 use super::{Sculpt, V};
@@ -12,12 +12,12 @@ type Hollow = [f64; 3];
 
 impl Sculpt {
     /// A box; `at` is the middle of its bottom.
-    pub(in crate::generation) fn block(&mut self, at: [f64; 3], size: [f64; 3]) {
+    pub fn block(&mut self, at: [f64; 3], size: [f64; 3]) {
         self.tapered(at, size, [1.0, 1.0]);
     }
 
     /// A box whose top is so many times as long and wide as its bottom; a roof where one is 0.
-    pub(in crate::generation) fn tapered(&mut self, [x, y, z]: [f64; 3], size: [f64; 3], top: [f64; 2]) {
+    pub fn tapered(&mut self, [x, y, z]: [f64; 3], size: [f64; 3], top: [f64; 2]) {
         let (half, height) = ([size[0] * 0.5, size[1] * 0.5], size[2]);
         let ring = |z: f64, [sx, sy]: [f64; 2]| {
             [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
@@ -29,29 +29,17 @@ impl Sculpt {
     }
 
     /// An upright cylinder on the middle of its bottom.
-    pub(in crate::generation) fn pillar(&mut self, at: [f64; 3], radius: f64, height: f64, sides: usize) {
+    pub fn pillar(&mut self, at: [f64; 3], radius: f64, height: f64, sides: usize) {
         self.lathe(at, &[[radius, 0.0], [radius, height]], sides, Hulls::Whole);
     }
 
     /// An upright cone or frustum on the middle of its bottom.
-    pub(in crate::generation) fn frustum(
-        &mut self,
-        at: [f64; 3],
-        radii: [f64; 2],
-        height: f64,
-        sides: usize,
-    ) {
+    pub fn frustum(&mut self, at: [f64; 3], radii: [f64; 2], height: f64, sides: usize) {
         self.lathe(at, &[[radii[0], 0.0], [radii[1], height]], sides, Hulls::Whole);
     }
 
     /// A profile of radius and height, turned about the vertical through `at`.
-    pub(in crate::generation) fn lathe(
-        &mut self,
-        at: [f64; 3],
-        profile: &[[f64; 2]],
-        sides: usize,
-        hulls: Hulls,
-    ) {
+    pub fn lathe(&mut self, at: [f64; 3], profile: &[[f64; 2]], sides: usize, hulls: Hulls) {
         let ring = |[radius, height]: &[f64; 2]| circle(at, *radius, *height, sides);
         let rings = profile.iter().map(ring).collect();
         let shade = if sides <= 6 { Shade::Flat } else { Shade::Round };
@@ -59,14 +47,14 @@ impl Sculpt {
     }
 
     /// A prism with a regular or other convex outline, given counter-clockwise from above, standing at a height.
-    pub(in crate::generation) fn prism(&mut self, outline: &[[f64; 2]], z: f64, height: f64) {
+    pub fn prism(&mut self, outline: &[[f64; 2]], z: f64, height: f64) {
         let ring = |z: f64| outline.iter().map(|[x, y]| V::new(*x, *y, z)).collect();
         let loft = Loft { rings: vec![ring(z), ring(z + height)], ends: Ends::Closed, shade: Shade::Flat };
         self.add(&loft, Hulls::Whole);
     }
 
     /// A straight round bar from one point to another, as thick at each end as its radius says.
-    pub(in crate::generation) fn bar(&mut self, from: [f64; 3], to: [f64; 3], radii: [f64; 2], sides: usize) {
+    pub fn bar(&mut self, from: [f64; 3], to: [f64; 3], radii: [f64; 2], sides: usize) {
         let (from, to) = (V::from(from), V::from(to));
         let rings = along(&[from, to], |index| radii[index], sides);
         let shade = if sides <= 6 { Shade::Flat } else { Shade::Round };
@@ -74,33 +62,24 @@ impl Sculpt {
     }
 
     /// A round bar along points, with mitred bends.
-    pub(in crate::generation) fn tube(&mut self, path: &[[f64; 3]], radii: [f64; 2], sides: usize) {
+    pub fn tube(&mut self, path: &[[f64; 3]], radii: [f64; 2], sides: usize) {
         let path: Vec<V> = path.iter().copied().map(V::from).collect();
-        let last = path.len().saturating_sub(1).max(1) as f64;
+        if path.len() < 2 {
+            return;
+        }
+        let last = (path.len() - 1) as f64;
         let radius = |index: usize| radii[0] + (radii[1] - radii[0]) * index as f64 / last;
         let rings = along(&path, radius, sides);
         self.add(&Loft { rings, ends: Ends::Closed, shade: Shade::Smooth }, Hulls::Segments);
     }
 
     /// An ellipsoid about its middle.
-    pub(in crate::generation) fn ball(
-        &mut self,
-        middle: [f64; 3],
-        radii: [f64; 3],
-        rings: usize,
-        sides: usize,
-    ) {
+    pub fn ball(&mut self, middle: [f64; 3], radii: [f64; 3], rings: usize, sides: usize) {
         self.ellipsoid(middle, radii, [rings, sides], Shade::Smooth);
     }
 
     /// An ellipsoid with facets, as broken stone has.
-    pub(in crate::generation) fn lump(
-        &mut self,
-        middle: [f64; 3],
-        radii: [f64; 3],
-        rings: usize,
-        sides: usize,
-    ) {
+    pub fn lump(&mut self, middle: [f64; 3], radii: [f64; 3], rings: usize, sides: usize) {
         self.ellipsoid(middle, radii, [rings, sides], Shade::Flat);
     }
 
@@ -117,13 +96,7 @@ impl Sculpt {
 
     /// A vessel that is open at its top: a bottom up to `floor`, and a wall through levels from the lowest to the highest.
     /// Each inner radius is that of the room inside.
-    pub(in crate::generation) fn vessel(
-        &mut self,
-        at: [f64; 3],
-        levels: &[Hollow],
-        floor: f64,
-        sides: usize,
-    ) {
+    pub fn vessel(&mut self, at: [f64; 3], levels: &[Hollow], floor: f64, sides: usize) {
         let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return };
         let ring = |radius: f64, height: f64| circle(at, radius, height, sides);
         let inner = |height: f64| inner_at(levels, height);
@@ -136,13 +109,13 @@ impl Sculpt {
         rings.extend([ring(inner(floor), floor), ring(0.0, floor)]);
         let shade = if sides <= 6 { Shade::Flat } else { Shade::Round };
         let skin = Loft { rings, ends: Ends::Closed, shade };
-        self.add(&skin, Hulls::Whole);
-        let hulls = vessel_hulls(levels, floor, ring);
-        self.meet(hulls);
+        if self.add(&skin, Hulls::Whole) {
+            self.meet(vessel_hulls(levels, floor, ring));
+        }
     }
 
     /// A box that is open at its top, on the middle of its bottom.
-    pub(in crate::generation) fn trough(&mut self, at: [f64; 3], size: [f64; 3], wall: f64, floor: f64) {
+    pub fn trough(&mut self, at: [f64; 3], size: [f64; 3], wall: f64, floor: f64) {
         let [x, y, z] = at;
         let ring = |inset: f64, height: f64| {
             let (a, b) = (size[0] * 0.5 - inset, size[1] * 0.5 - inset);
@@ -168,13 +141,7 @@ impl Sculpt {
     }
 
     /// A bow of four-sided section in the plane of y and z, from one angle to another (rad, 0 to the left, π/2 upwards).
-    pub(in crate::generation) fn bow(
-        &mut self,
-        middle: [f64; 3],
-        radii: [f64; 2],
-        depth: f64,
-        [from, to]: [f64; 2],
-    ) {
+    pub fn bow(&mut self, middle: [f64; 3], radii: [f64; 2], depth: f64, [from, to]: [f64; 2]) {
         let steps = (((to - from).abs() / (PI / 12.0)).ceil() as usize).max(1);
         let ring = |step: usize| {
             let angle = from + (to - from) * step as f64 / steps as f64;
@@ -191,13 +158,7 @@ impl Sculpt {
     }
 
     /// A torus-like hoop lying flat about its middle, of round section.
-    pub(in crate::generation) fn hoop(
-        &mut self,
-        middle: [f64; 3],
-        radius: f64,
-        thickness: f64,
-        sides: usize,
-    ) {
+    pub fn hoop(&mut self, middle: [f64; 3], radius: f64, thickness: f64, sides: usize) {
         let ring = |step: usize| {
             let (sin, cos) = ops::sin_cos(TAU * step as f64 / sides as f64);
             (0..6)
@@ -213,14 +174,14 @@ impl Sculpt {
     }
 
     /// A plate with a convex outline in the plane of y and z, its back at `x`, so deep towards the front.
-    pub(in crate::generation) fn panel(&mut self, outline: &[[f64; 2]], x: f64, depth: f64) {
+    pub fn panel(&mut self, outline: &[[f64; 2]], x: f64, depth: f64) {
         let ring = |x: f64| outline.iter().map(|[y, z]| V::new(x, *y, *z)).collect();
         let loft = Loft { rings: vec![ring(x), ring(x + depth)], ends: Ends::Closed, shade: Shade::Flat };
         self.add(&loft, Hulls::Whole);
     }
 
     /// A flat leaf along points: `widths` across, from side to side, at each of them.
-    pub(in crate::generation) fn blade(&mut self, path: &[[f64; 3]], widths: &[f64], thickness: f64) {
+    pub fn blade(&mut self, path: &[[f64; 3]], widths: &[f64], thickness: f64) {
         let path: Vec<V> = path.iter().copied().map(V::from).collect();
         let (Some(first), Some(last)) = (path.first(), path.last()) else { return };
         let across = V::z().cross(&(last - first)).try_normalize(1e-9).unwrap_or_else(V::y);
@@ -232,29 +193,34 @@ impl Sculpt {
         self.add(&Loft { rings, ends: Ends::Closed, shade: Shade::Flat }, Hulls::Segments);
     }
 
-    /// A cone in sectors, each with a finish of its own; `at` is the middle of its flat bottom.
-    pub(in crate::generation) fn sectors(
+    /// A cone in sectors, each with a coating of its own; `at` is the middle of its flat bottom.
+    pub fn sectors(
         &mut self,
         at: [f64; 3],
         [radius, height]: [f64; 2],
         sides: usize,
-        finishes: [super::Finish; 2],
+        coatings: [super::Coating; 2],
     ) {
         let rim = circle(at, radius, 0.0, sides);
         let (middle, apex) = (V::from(at), V::from(at) + V::z() * height);
         for k in 0..sides {
-            self.finish = finishes[k % 2];
+            self.coating = coatings[k % 2];
             let rings = vec![vec![rim[k], rim[(k + 1) % sides], middle], vec![apex; 3]];
             self.add(&Loft { rings, ends: Ends::Closed, shade: Shade::Flat }, Hulls::Whole);
         }
     }
 
-    /// A skin with two faces: strips of points across, each with the one inside it.
-    pub(in crate::generation) fn shell(&mut self, strips: &[(Vec<V>, Vec<V>)]) {
+    /// A skin with two faces: strips of points across, each with the one inside it, which has as many points; nothing where one has not.
+    pub fn shell(&mut self, strips: &[(Vec<V>, Vec<V>)]) {
+        if strips.iter().any(|(outer, inner)| outer.len() != inner.len()) {
+            return;
+        }
         let ring =
             |(outer, inner): &(Vec<V>, Vec<V>)| outer.iter().chain(inner.iter().rev()).copied().collect();
         let rings = strips.iter().map(ring).collect();
-        self.add(&Loft { rings, ends: Ends::Strips, shade: Shade::Flat }, Hulls::Whole);
+        if !self.add(&Loft { rings, ends: Ends::Strips, shade: Shade::Flat }, Hulls::Whole) {
+            return;
+        }
         let hulls = strips.windows(2).flat_map(|pair| {
             (1..pair[0].0.len()).map(|k| {
                 pair.iter()

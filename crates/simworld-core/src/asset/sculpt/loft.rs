@@ -15,7 +15,7 @@ pub(super) enum Shade {
 
 /// What bodies meet of a solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::generation) enum Hulls {
+pub enum Hulls {
     /// It is convex.
     Whole,
     /// The solid between two rings is convex.

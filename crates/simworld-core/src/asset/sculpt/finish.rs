@@ -2,26 +2,26 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::asset::{Hull, Model, ModelPart, ModelVertex};
-
+use super::super::{Hull, Model, ModelPart, ModelVertex};
 use super::loft::volume;
 use super::{Piece, Sculpt, V};
 
 /// A model with what it weighs.
 #[derive(Clone, Debug)]
-pub(in crate::generation) struct Cast {
-    pub(in crate::generation) model: Model,
+pub struct Cast {
+    /// In a box of that size, on its origin.
+    pub model: Model,
     /// Length, width and height, m.
-    pub(in crate::generation) size: [f64; 3],
+    pub size: [f64; 3],
     /// kg.
-    pub(in crate::generation) mass: f64,
+    pub mass: f64,
     /// Whether every point is within the upright cylinder in the box.
-    pub(in crate::generation) round: bool,
+    pub round: bool,
 }
 
 impl Sculpt {
     /// The pieces as one model that stands on its origin; it is stretched to the sizes that are given.
-    pub(in crate::generation) fn cast(mut self, exact: [Option<f64>; 3]) -> Cast {
+    pub fn cast(mut self, exact: [Option<f64>; 3]) -> Cast {
         let (low, high) = self.bounds();
         let span = high - low;
         let size: [f64; 3] = std::array::from_fn(|axis| exact[axis].unwrap_or(span[axis]));
@@ -30,7 +30,7 @@ impl Sculpt {
         for piece in &mut self.pieces {
             piece.fit(foot, stretch);
         }
-        let mass = self.pieces.iter().map(|piece| volume(&piece.triangles) * piece.finish.density).sum();
+        let mass = self.pieces.iter().map(|piece| volume(&piece.triangles) * piece.coating.density).sum();
         let radius = size[0].max(size[1]) * 0.5;
         let round =
             (size[0] - size[1]).abs() < 0.01 && self.points().all(|point| point.xy().norm() <= radius + 1e-3);
@@ -66,13 +66,16 @@ fn model_of(pieces: &[Piece]) -> Model {
     let mut known: BTreeMap<[u32; 9], u32> = BTreeMap::new();
     for piece in pieces {
         let count = piece.triangles.len() as u32;
-        let (name, paint) = (piece.name, piece.finish.paint);
+        let (name, paint, finish) = (piece.name, piece.coating.paint, piece.coating.light);
         match model.parts.last_mut() {
-            Some(part) if part.name == name && part.paint == paint => part.triangles += count,
+            Some(part) if part.name == name && part.paint == paint && part.finish == finish => {
+                part.triangles += count;
+            }
             _ => model.parts.push(ModelPart {
                 name: name.to_owned(),
                 triangles: count,
                 paint,
+                finish,
                 ..ModelPart::default()
             }),
         }
@@ -81,7 +84,7 @@ fn model_of(pieces: &[Piece]) -> Model {
                 let vertex = ModelVertex {
                     position: narrow(point),
                     normal: narrow(normal),
-                    color: piece.finish.color,
+                    color: piece.coating.color,
                     ..ModelVertex::default()
                 };
                 let mut key = [0; 9];
