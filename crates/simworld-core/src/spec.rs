@@ -208,17 +208,20 @@ pub struct FeatureWish {
     /// Things of the library by name, such as `lighthouse` or `cathedral`: exactly so many each, at most 8, and 16 kinds. They are
     /// none of the buildings that are counted.
     pub landmarks: BTreeMap<String, u32>,
-    /// Where some of the places and landmarks that are counted stand, at most 16. Of a city alone.
+    /// Where some of all these are, at most 16. Of a city alone.
     pub sites: Vec<SiteWish>,
     /// Parts of the place with a character of their own, at most 9. Of a city alone.
     pub districts: Vec<DistrictWish>,
 }
 
 impl FeatureWish {
-    /// How many of something are asked for by number: of a use, or of a thing of the library.
+    /// How many of something are asked for: of a use, of a thing of the library, of squares or parks of that name.
     fn counted(&self, name: &str) -> u32 {
         let place = Place::from_name(name).and_then(|place| self.places.get(&place));
-        place.or_else(|| self.landmarks.get(name)).copied().unwrap_or(0)
+        let number = place.or_else(|| self.landmarks.get(name)).copied();
+        number.unwrap_or_else(|| {
+            self.squares.iter().chain(&self.parks).filter(|own| *own == name).count() as u32
+        })
     }
 
     /// Whether the place has something of that name: a use, a thing of the library, a water, `square` or `park`.
@@ -244,7 +247,7 @@ impl FeatureWish {
         for site in &self.sites {
             let alike = self.sites.iter().filter(|other| other.what == site.what).count() as u32;
             if alike > self.counted(&site.what) {
-                let hint = "count as many under features.places or features.landmarks";
+                let hint = "ask for as many under features.places, landmarks, squares or parks";
                 return unasked("features.sites.what", &site.what, hint);
             }
             if let Some(by) = site.by.as_deref().filter(|by| !self.has(by)) {

@@ -1,4 +1,4 @@
-//! Where in a place something is to be: its districts, and the houses and landmarks of which it is said where they stand.
+//! Where in a place something is to be: its districts, and the houses, landmarks and squares of which it is said where they are.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -156,11 +156,11 @@ pub struct DistrictWish {
     pub by: Option<String>,
 }
 
-/// Where one of the houses or landmarks is to stand that the spec counts.
+/// Where one of the houses, landmarks, squares or parks is to be that the spec asks for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SiteWish {
-    /// Which: a use, such as `hospital`, or a thing of the library, such as `cathedral`.
+    /// Which: a use, such as `hospital`, a thing of the library, such as `cathedral`, or the name of a square or a park.
     pub what: String,
     /// In which part of the place.
     #[serde(default)]
