@@ -18,6 +18,7 @@ mod editor;
 mod error;
 mod history;
 mod land;
+mod made;
 mod place;
 mod reader;
 mod relax;
