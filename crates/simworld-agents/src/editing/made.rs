@@ -11,7 +11,7 @@ const FIRST: u32 = u32::MAX - 1;
 const MOST: u32 = 1000;
 
 /// Which of the things that are made an id stands for, counted from zero.
-fn nth_of(id: EntityId) -> Option<usize> {
+pub(crate) fn nth_made(id: EntityId) -> Option<usize> {
     let nth = (FIRST as usize).checked_sub(id.index())?;
     (id.generation() == u32::MAX && nth < MOST as usize).then_some(nth)
 }
@@ -46,7 +46,7 @@ impl Edit {
         let mut edit = self.clone();
         let mut missing = None;
         edit.each_id(&mut |id| {
-            if let Some(nth) = nth_of(*id) {
+            if let Some(nth) = nth_made(*id) {
                 match made.get(nth) {
                     Some(known) => *id = *known,
                     None => missing = Some(nth),

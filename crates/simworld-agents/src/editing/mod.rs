@@ -36,6 +36,8 @@ pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;
 pub use error::EditError;
+#[cfg(feature = "thought")]
+pub(crate) use made::nth_made;
 pub(crate) use place::has_flat_top;
 pub use place::{Candidate, Outcome, Placing};
 pub use reader::{Asked, EditReader, ReadBy};

@@ -24,7 +24,7 @@ pub mod schema;
 mod unsayable;
 
 pub use courier::{CourierConfig, CourierConfigError, ModelCourier, Thinking, Waking};
-pub use editing::ModelReader;
+pub use editing::{EditAnswer, ModelReader};
 pub use eyes::{VisualConfig, VisualConfigError, VisualExecutor};
 pub use known::{Sight, ViewConfig, ViewConfigError};
 pub use memory::{Memory, MemoryConfig, MemoryConfigError, Record, RecordKind, RingMemory};
