@@ -1,9 +1,9 @@
 //! The schema of an answer: edits over the ids, assets and streets that were recalled, and nothing else.
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 use simworld_core::asset::Season;
 
-use super::super::schema::{any_of, integer, list, object, one_of, words};
+use super::super::schema::{any_of, defined, integer, list, object, one_of, words};
 use super::Recalled;
 use super::bearings::{compass, own_sides};
 use crate::language::{named_colors, sky_names};
@@ -38,11 +38,35 @@ const MOST_MADE: i64 = 1000;
 const FAR: i64 = 10_000_000;
 /// The farthest that something may be from another, cm.
 const REACH: i64 = 100_000;
+/// The names of the definitions: what may be changed, what something may stand to, a street or a piece of one, a place.
+const THING: &str = "thing";
+const ANCHOR: &str = "anchor";
+const STREET: &str = "street";
+const PLACE: &str = "place";
 
 /// The schema of at most so many edits.
 pub(super) fn schema(known: &Recalled, most: usize) -> Value {
     let edits = any_of(branches(known));
-    object([("cannot", words(200)), ("edits", list(&edits, 0, most))])
+    let mut schema = object([("cannot", words(200)), ("edits", list(&edits, 0, most))]);
+    schema["$defs"] = definitions(known).into();
+    schema
+}
+
+/// What many edits have in common.
+fn definitions(known: &Recalled) -> Map<String, Value> {
+    let mut all = Map::new();
+    let mut define = |name: &str, schema| all.insert(name.to_owned(), schema);
+    define(PLACE, place(known));
+    if known.subjects().next().is_some() {
+        define(THING, one_of(known.subjects()));
+    }
+    if known.anchors().next().is_some() {
+        define(ANCHOR, one_of(known.anchors()));
+    }
+    if !known.streets.is_empty() {
+        define(STREET, one_of(known.streets.keys().cloned()));
+    }
+    all
 }
 
 fn act(name: &str) -> Value {
@@ -56,7 +80,7 @@ fn branches(known: &Recalled) -> Vec<Value> {
         object([("do", act("weather")), ("sky", sky), ("minutes", integer(-1, 1439))]),
         object([("do", act("tell")), ("words", words(1000))]),
     ];
-    let places = list(&place(known), 0, PLACES);
+    let places = list(&defined(PLACE), 0, PLACES);
     if !known.assets.is_empty() {
         let add =
             [("do", act("add")), ("count", integer(1, MOST_MADE)), ("places", places.clone())].into_iter();
@@ -73,7 +97,7 @@ fn branches(known: &Recalled) -> Vec<Value> {
         all.push(object([("do", act("close_streets")), ("streets", streets(known))]));
         all.push(object([("do", act("open_streets")), ("streets", streets(known))]));
     }
-    if !known.things.is_empty() {
+    if known.subjects().next().is_some() {
         all.extend(of_things(known, &places));
     }
     all
@@ -94,19 +118,19 @@ fn size() -> [(&'static str, Value); 2] {
 
 fn streets(known: &Recalled) -> Value {
     let most = known.streets.len().clamp(1, 64);
-    list(&one_of(known.streets.keys().cloned()), 1, most)
+    list(&defined(STREET), 1, most)
 }
 
 /// Edits of what is there.
 fn of_things(known: &Recalled, places: &Value) -> Vec<Value> {
-    let (thing, anchor) = (one_of(known.subjects()), one_of(known.anchors()));
+    let (thing, anchor) = (defined(THING), defined(ANCHOR));
     let most = known.subjects().count();
     let things = list(&thing, 1, most);
     let colors = one_of(named_colors().map(|(name, _)| name));
     let scaled = [("do", act("scale")), ("things", things.clone())].into_iter().chain(size());
     vec![
         object([("do", act("remove")), ("things", things.clone())]),
-        object([("do", act("move")), ("things", things.clone()), ("places", list(&place(known), 0, PLACES))]),
+        object([("do", act("move")), ("things", things.clone()), ("places", places.clone())]),
         object([("do", act("rotate")), ("things", things.clone()), ("degrees", integer(-3600, 3600))]),
         object([("do", act("face")), ("things", things.clone()), ("towards", anchor.clone())]),
         object([("do", act("face_compass")), ("things", things.clone()), ("side", one_of(compass()))]),
@@ -136,7 +160,7 @@ fn place(known: &Recalled) -> Value {
         object([("is", act("around"))].into_iter().chain(point())),
     ];
     if known.anchors().next().is_some() {
-        all.extend(beside_things(known));
+        all.extend(beside_things());
     }
     if !known.streets.is_empty() {
         let ends = ("side", one_of(compass()));
@@ -157,14 +181,14 @@ fn side_of_street(known: &Recalled) -> Value {
 }
 
 /// Places by what stands there.
-fn beside_things(known: &Recalled) -> Vec<Value> {
-    let of = || ("of", one_of(known.anchors()));
+fn beside_things() -> Vec<Value> {
+    let of = || ("of", defined(ANCHOR));
     let far = |name: &'static str| (name, integer(-FAR, FAR));
     let reach = |name: &'static str| (name, integer(0, REACH));
-    let to = ("to", one_of(known.anchors()));
+    let to = ("to", defined(ANCHOR));
     vec![
         object([("is", one_of(RELATIONS)), of()]),
-        object([("is", act("between")), of(), ("and", one_of(known.anchors()))]),
+        object([("is", act("between")), of(), ("and", defined(ANCHOR))]),
         object([("is", act("offset")), of(), reach("distance"), ("degrees", integer(-180, 180))]),
         object([
             ("is", act("offset_to_side")),
@@ -186,7 +210,7 @@ fn beside_things(known: &Recalled) -> Vec<Value> {
 fn line(known: &Recalled) -> Option<Value> {
     let mut all = Vec::new();
     if known.anchors().next().is_some() {
-        let thing = one_of(known.anchors());
+        let thing = defined(ANCHOR);
         all.push(object([("is", one_of(["along", "around"])), ("of", thing.clone())]));
         all.push(object([("is", act("between")), ("of", thing.clone()), ("and", thing)]));
     }
