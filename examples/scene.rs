@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release --example scene
 //! cargo run --release --example scene -- --words "a village of thirty houses by a river, in the fog" --out out/village
+//! cargo run --release --example scene -- --words "a city of 300 houses with an old town in the middle, factories in the east and a cathedral" --out out/city
 //! cargo run --release --example scene -- --words "a wooded island with a fishing village and a lighthouse" --out out/island
 //! cargo run --release --example scene -- --words "a wilderness with mountains, a lake and a hut" --out out/wild
 //! cargo run --release --example scene -- --spec out/scene/scene.toml
@@ -71,6 +72,9 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         if !reading.unread.is_empty() {
             println!("not understood: {}", reading.unread.join(", "));
         }
+        for remark in &reading.remarks {
+            println!("{remark}");
+        }
         reading.spec
     };
     simworld_examples::folder::make_folder(&arguments.out)?;
@@ -119,6 +123,16 @@ fn tell(spec: &SceneSpec, place: &Settlement, world: &World) {
     );
     for area in &place.areas {
         println!("{} ({}), {:.0} by {:.0} m", area.name, area.used_as, area.size.x, area.size.y);
+    }
+    for landmark in &place.landmarks {
+        println!("{}, {:.0} m east and {:.0} m north", landmark.name, landmark.middle.x, landmark.middle.y);
+    }
+    for district in &place.city.config.zoning.districts {
+        let houses = place.city.buildings.iter().filter(|building| district.form.holds(building.center));
+        println!("{} houses: {} district", houses.count(), district.kind.as_str().replace('_', " "));
+    }
+    for remark in &place.remarks {
+        println!("{remark}");
     }
     for (used_as, count) in &spec.features.places {
         let have = place.city.buildings.iter().filter(|building| building.place == *used_as).count();

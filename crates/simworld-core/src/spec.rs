@@ -16,7 +16,17 @@
 //! waters = ["harbour"]
 //! [features.places]
 //! museum = 1
+//! [features.landmarks]
+//! cathedral = 1
+//! [[features.sites]]
+//! what = "museum"
+//! by = "cathedral"
+//! [[features.districts]]
+//! kind = "industrial"
+//! at = "east"
 //! ```
+
+mod parts;
 
 use std::collections::BTreeMap;
 
@@ -25,6 +35,8 @@ use thiserror::Error;
 
 use crate::environment::{Environment, EnvironmentError};
 use crate::scene::Place;
+
+pub use parts::{DistrictKind, DistrictWish, SiteWish, Whereabouts};
 
 /// The version of the format that is written.
 pub const VERSION: u32 = 1;
@@ -193,9 +205,73 @@ pub struct FeatureWish {
     pub parks: Vec<String>,
     /// Water beside the place, at most 4.
     pub waters: Vec<Water>,
-    /// Things of the library by name, such as `lighthouse` or `windmill`: exactly so many each, at most 8, and 16 kinds. Beyond
-    /// the city alone.
+    /// Things of the library by name, such as `lighthouse` or `cathedral`: exactly so many each, at most 8, and 16 kinds. They are
+    /// none of the buildings that are counted.
     pub landmarks: BTreeMap<String, u32>,
+    /// Where some of all these are, at most 16. Of a city alone.
+    pub sites: Vec<SiteWish>,
+    /// Parts of the place with a character of their own, at most 9. Of a city alone.
+    pub districts: Vec<DistrictWish>,
+}
+
+impl FeatureWish {
+    /// How many of something are asked for: of a use, of a thing of the library, of squares or parks of that name.
+    fn counted(&self, name: &str) -> u32 {
+        let place = Place::from_name(name).and_then(|place| self.places.get(&place));
+        let number = place.or_else(|| self.landmarks.get(name)).copied();
+        number.unwrap_or_else(|| {
+            self.squares.iter().chain(&self.parks).filter(|own| *own == name).count() as u32
+        })
+    }
+
+    /// Whether the place has something of that name: a use, a thing of the library, a water, `square` or `park`.
+    fn has(&self, name: &str) -> bool {
+        match Place::from_name(name) {
+            // What is not counted is as it comes.
+            Some(place) => self.places.get(&place) != Some(&0),
+            None => {
+                self.counted(name) > 0
+                    || self.waters.iter().any(|water| water.as_str() == name)
+                    || name == "square" && !self.squares.is_empty()
+                    || name == "park" && !self.parks.is_empty()
+            }
+        }
+    }
+
+    /// Checks sites and districts: what they name is asked for.
+    fn validate_parts(&self) -> Result<(), SpecError> {
+        within("features.sites", self.sites.len() as u32, 0, 16, "at most 16")?;
+        within("features.districts", self.districts.len() as u32, 0, 9, "at most 9")?;
+        let unasked =
+            |field, name: &str, hint| Err(SpecError::Unasked { field, name: name.to_owned(), hint });
+        for site in &self.sites {
+            let alike = self.sites.iter().filter(|other| other.what == site.what).count() as u32;
+            if alike > self.counted(&site.what) {
+                let hint = "ask for as many under features.places, landmarks, squares or parks";
+                return unasked("features.sites.what", &site.what, hint);
+            }
+            if let Some(by) = site.by.as_deref().filter(|by| !self.has(by)) {
+                return unasked("features.sites.by", by, "ask for it too, or say in which part of the place");
+            }
+        }
+        for by in self.districts.iter().filter_map(|district| district.by.as_deref()) {
+            if !self.waters.iter().any(|water| water.as_str() == by) {
+                return unasked("features.districts.by", by, "name a water that features.waters has");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a number lies in its range.
+fn within(
+    field: &'static str,
+    value: u32,
+    low: u32,
+    high: u32,
+    allowed: &'static str,
+) -> Result<(), SpecError> {
+    if (low..=high).contains(&value) { Ok(()) } else { Err(SpecError::Range { field, value, allowed }) }
 }
 
 /// Water beside a place.
@@ -238,6 +314,16 @@ pub enum SpecError {
         /// The allowed range, in words.
         allowed: &'static str,
     },
+    /// A site or a district that names something which the spec does not ask for.
+    #[error("{field} = {name:?}, which the place is not asked to have: {hint}")]
+    Unasked {
+        /// The field, as a path.
+        field: &'static str,
+        /// What it names.
+        name: String,
+        /// What would be right.
+        hint: &'static str,
+    },
     /// Sun or weather out of range.
     #[error(transparent)]
     Environment(#[from] EnvironmentError),
@@ -252,13 +338,6 @@ impl SceneSpec {
         if self.version != VERSION {
             return Err(SpecError::Version(self.version));
         }
-        let within = |field, value: u32, low, high, allowed| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(SpecError::Range { field, value, allowed })
-            }
-        };
         within("streets.count", self.streets.count.unwrap_or(2), 2, 20_000, "2 to 20 000")?;
         within("buildings.count", self.buildings.count.unwrap_or(1), 1, 20_000, "1 to 20 000")?;
         for count in self.features.places.values() {
@@ -274,6 +353,55 @@ impl SceneSpec {
         for count in self.features.landmarks.values() {
             within("features.landmarks", *count, 0, 8, "0 to 8 of each")?;
         }
+        self.features.validate_parts()?;
         Ok(self.environment.validate()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn site(what: &str, by: Option<&str>) -> SiteWish {
+        SiteWish { what: what.to_owned(), at: Whereabouts::Anywhere, by: by.map(str::to_owned) }
+    }
+
+    #[test]
+    fn a_site_is_of_what_is_counted_and_beside_what_is_there() {
+        let mut spec = SceneSpec::default();
+        spec.features.places.insert(Place::Hospital, 1);
+        spec.features.landmarks.insert("train_station".to_owned(), 1);
+        spec.features.sites = vec![site("hospital", Some("train_station")), site("train_station", None)];
+        assert_eq!(spec.validate(), Ok(()));
+        for (wrong, field) in [
+            (site("cathedral", None), "features.sites.what"),
+            (site("hospital", None), "features.sites.what"),
+            (site("museum", None), "features.sites.what"),
+        ] {
+            let mut spec = spec.clone();
+            spec.features.sites.push(wrong);
+            let error = spec.validate().unwrap_err();
+            assert!(matches!(&error, SpecError::Unasked { field: at, .. } if *at == field), "{error}");
+        }
+        spec.features.sites[0].by = Some("river".to_owned());
+        assert!(matches!(spec.validate(), Err(SpecError::Unasked { field: "features.sites.by", .. })));
+        spec.features.waters.push(Water::River);
+        assert_eq!(spec.validate(), Ok(()));
+    }
+
+    #[test]
+    fn a_district_lies_along_water_that_is_there() {
+        let mut spec = SceneSpec::default();
+        let homes = DistrictWish {
+            kind: DistrictKind::Residential,
+            at: Whereabouts::Anywhere,
+            by: Some("river".to_owned()),
+        };
+        spec.features.districts = vec![homes];
+        assert!(matches!(spec.validate(), Err(SpecError::Unasked { field: "features.districts.by", .. })));
+        spec.features.waters.push(Water::River);
+        assert_eq!(spec.validate(), Ok(()));
+        spec.features.districts = vec![spec.features.districts[0].clone(); 10];
+        assert!(matches!(spec.validate(), Err(SpecError::Range { field: "features.districts", .. })));
     }
 }

@@ -240,7 +240,8 @@ impl SceneEditor {
         read
     }
 
-    /// Carries out edits that somebody else worked out: all of them, or none.
+    /// Carries out edits that somebody else worked out: all of them, or none. What one of them makes those after it call
+    /// [`Edit::made`].
     ///
     /// # Errors
     /// What is not there, or impossible; then the scene is as it was.
@@ -255,8 +256,12 @@ impl SceneEditor {
         scene: &mut dyn Editable,
     ) -> Result<Edited, EditError> {
         let mut applier = self.applier(scene);
-        let outcome = edits.iter().try_for_each(|edit| applier.apply(edit));
-        applier.edited.edits = edits.to_vec();
+        let outcome = edits.iter().try_for_each(|edit| -> Result<(), EditError> {
+            let edit = edit.with_made(&applier.edited.made)?;
+            applier.apply(&edit)?;
+            applier.edited.edits.push(edit);
+            Ok(())
+        });
         let (edited, back, memory) = applier.finish(outcome.is_ok());
         self.remember(memory);
         outcome?;

@@ -18,6 +18,7 @@ mod editor;
 mod error;
 mod history;
 mod land;
+mod made;
 mod place;
 mod reader;
 mod relax;
@@ -35,6 +36,8 @@ pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;
 pub use error::EditError;
+#[cfg(feature = "thought")]
+pub(crate) use made::nth_made;
 pub(crate) use place::has_flat_top;
 pub use place::{Candidate, Outcome, Placing};
 pub use reader::{Asked, EditReader, ReadBy};

@@ -25,6 +25,12 @@ pub(super) const DIRECTIONS: &[(&[&str], Compass)] = &[
     (&["south east", "southeast", "southeastward", "southeastwards", "south eastwards"], Compass(7)),
 ];
 
+/// The names of the eight directions, and where each leads, radians from east.
+#[cfg(feature = "thought")]
+pub(crate) fn winds() -> impl Iterator<Item = (&'static str, f64)> {
+    DIRECTIONS.iter().map(|(words, compass)| (words[0], compass.heading()))
+}
+
 /// Which of several, by where they stand.
 pub(super) const MOST: &[(&[&str], Compass)] = &[
     (&["easternmost", "eastern most", "eastmost", "most easterly", "most eastern", "eastern"], Compass(0)),

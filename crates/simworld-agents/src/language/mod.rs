@@ -74,6 +74,8 @@ mod sequence;
 mod shares;
 mod shopping;
 mod shuttles;
+#[cfg(feature = "thought")]
+mod skies;
 mod slips;
 mod sorts;
 mod speech;
@@ -101,6 +103,8 @@ mod ways;
 mod weather;
 mod whereabouts;
 
+#[cfg(feature = "thought")]
+pub(crate) use compass::winds;
 use draft::Draft;
 use names::Names;
 #[cfg(feature = "thought")]
@@ -111,6 +115,8 @@ use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::{Plan, PlanError, Planner};
+#[cfg(feature = "thought")]
+pub(crate) use skies::{names_of_sky, sky_by_names, sky_names};
 #[cfg(feature = "thought")]
 pub(crate) use structured::{Order, plan_orders};
 

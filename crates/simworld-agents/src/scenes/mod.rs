@@ -2,9 +2,10 @@
 //! [`SceneSpec`], which the city generator makes.
 //!
 //! [`GrammarSceneReader`] reads the same way every time and says which words it did not understand;
-//! [`ModelSceneReader`](crate::thought::ModelSceneReader) asks a model for the same spec.
+//! [`ModelSceneReader`](crate::thought::ModelSceneReader) asks a model for the same spec. What was understood and cannot be so is
+//! told by a [`SceneRemark`].
 
-use simworld_core::spec::{SceneSpec, SpecError};
+use simworld_core::spec::{SceneKind, SceneSpec, SpecError};
 use thiserror::Error;
 
 use crate::language::scenes::read;
@@ -14,8 +15,55 @@ use crate::language::scenes::read;
 pub struct SceneReading {
     /// As a spec, within its ranges.
     pub spec: SceneSpec,
-    /// The words that were not understood, in order: nothing follows from them.
+    /// The words from which nothing follows, in order.
     pub unread: Vec<String>,
+    /// What was understood, and is left out or otherwise than it was asked for.
+    pub remarks: Vec<SceneRemark>,
+}
+
+/// What a sentence asks for and its scene does not have.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SceneRemark {
+    /// No place of that kind has it.
+    #[error("{what}: no {kind} has it; say {instead}, if you want it")]
+    Unsuited {
+        /// What was asked for.
+        what: String,
+        /// The kind of place.
+        kind: &'static str,
+        /// A kind that has it.
+        instead: &'static str,
+    },
+    /// It is there, and not where it was asked for.
+    #[error("{what}: not {place}, since {why}")]
+    Unplaced {
+        /// What was asked for.
+        what: String,
+        /// Where.
+        place: String,
+        /// Why it cannot be there.
+        why: &'static str,
+    },
+}
+
+/// Takes out of a spec what its kind of place does not have, and says so.
+pub(crate) fn suited(spec: &mut SceneSpec) -> Vec<SceneRemark> {
+    if spec.kind == SceneKind::City {
+        return Vec::new();
+    }
+    let (kind, instead) = (spec.kind.as_str(), SceneKind::City.as_str());
+    let districts = std::mem::take(&mut spec.features.districts).into_iter().map(|district| {
+        let what = format!("{} district", district.kind.as_str().replace('_', " "));
+        SceneRemark::Unsuited { what, kind, instead }
+    });
+    let sites = std::mem::take(&mut spec.features.sites).into_iter().map(|site| {
+        let by = site.by.map(|by| format!("by the {by}"));
+        let place = by.unwrap_or_else(|| format!("in the {}", site.at.as_str()));
+        let why = "beyond the city everything is where the land has room for it";
+        SceneRemark::Unplaced { what: site.what.replace('_', " "), place: place.replace('_', " "), why }
+    });
+    districts.chain(sites).collect()
 }
 
 /// Why a sentence asks for no scene.
@@ -57,10 +105,11 @@ pub trait SceneReader {
 /// ```
 /// use simworld_agents::scenes::{GrammarSceneReader, SceneReader};
 /// use simworld_core::spec::Width;
-/// let asked = "a harbour town with narrow streets, fifty buildings and a cathedral";
+/// let asked = "a harbour town with narrow streets, fifty buildings, a cathedral in the middle and a dragon";
 /// let reading = GrammarSceneReader.read_scene(asked)?;
 /// assert_eq!((reading.spec.streets.width, reading.spec.buildings.count), (Width::Narrow, Some(50)));
-/// assert_eq!(reading.unread, ["cathedral"]);
+/// assert_eq!(reading.spec.features.landmarks["cathedral"], 1);
+/// assert_eq!(reading.unread, ["dragon"]);
 /// # Ok::<(), simworld_agents::scenes::SceneError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default)]

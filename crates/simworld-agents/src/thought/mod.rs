@@ -21,9 +21,10 @@ mod reasoner;
 mod relevance;
 mod scenes;
 pub mod schema;
+mod unsayable;
 
 pub use courier::{CourierConfig, CourierConfigError, ModelCourier, Thinking, Waking};
-pub use editing::ModelReader;
+pub use editing::{EditAnswer, ModelReader};
 pub use eyes::{VisualConfig, VisualConfigError, VisualExecutor};
 pub use known::{Sight, ViewConfig, ViewConfigError};
 pub use memory::{Memory, MemoryConfig, MemoryConfigError, Record, RecordKind, RingMemory};
@@ -33,4 +34,5 @@ pub use planner::{Answered, Fallback, ModelPlanner};
 pub use prompts::{Prompt, PromptError, Prompts};
 pub use react::{Ending, ReactConfig, ReactConfigError, ReactMind, Turn};
 pub use reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
-pub use scenes::ModelSceneReader;
+pub use scenes::{ModelSceneReader, scene_answer};
+pub use unsayable::Unsayable;

@@ -120,7 +120,7 @@ impl Prompt {
             Self::Courier | Self::Consider => &["calls", "persona"],
             Self::Editor | Self::Scene => &[],
             Self::Wish => &["request"],
-            Self::Edit => &["things", "assets", "streets", "spoken", "request"],
+            Self::Edit => &["things", "assets", "streets", "junctions", "spoken", "request"],
             Self::Shift => &["oneself", "held", "open", "offers", "news", "memories", "thought"],
         }
     }

@@ -8,7 +8,7 @@ use crate::thought_common::{answering, text};
 use simworld_agents::editing::{Difference, Edit, EditError, ReadBy, SceneEditor, Spacing, faults};
 use simworld_agents::model::{ChatModel, ChatRequest};
 use simworld_agents::thought::{ModelReader, ModelReasoner, Prompts, Question, ReasonError, Reasoner};
-use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::geometry::{Point2, Point3, heading, pose_facing, yaw_of};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape};
 use simworld_core::seed::Seed;
 use std::sync::{Arc, Mutex};
@@ -27,12 +27,13 @@ fn a_valid_answer_is_carried_out_and_taken_back() {
     let (square, bench, bin) = (city.ids["square"], city.ids["bench_red"], city.ids["bin_1"]);
     let answer = format!(
         r#"{{"cannot": "", "edits": [
-            {{"do": "add", "asset": "table", "color": "green", "count": 2, "percent": 100, "places": [{{"is": "inside", "of": "{square}"}}]}},
-            {{"do": "row", "asset": "cone", "color": "as_it_is", "line": {{"is": "along_street", "street": "Oak Street"}}, "count": 0, "every": 2500}},
+            {{"do": "add", "asset": "table", "color": "green", "name": "", "count": 2, "percent": 100, "height": 0, "places": [{{"is": "inside", "of": "{square}"}}]}},
+            {{"do": "row", "asset": "cone", "color": "as_it_is", "name": "", "percent": 100, "height": 0,
+                "line": {{"is": "along_street", "streets": ["Oak Street"]}}, "count": 0, "every": 2500}},
             {{"do": "paint", "things": ["{bench}"], "color": "blue"}},
             {{"do": "remove", "things": ["{bin}", "{bin}"]}},
             {{"do": "close_streets", "streets": ["Oak Street"]}},
-            {{"do": "weather", "sky": "light_rain", "minutes": 1140}}]}}"#
+            {{"do": "weather", "sky": ["light rain"], "minutes": 1140}}]}}"#
     );
     let (model, asked) = answering(&[&answer]);
     let mut editor = editor(&city, model);
@@ -54,6 +55,41 @@ fn a_valid_answer_is_carried_out_and_taken_back() {
     }
     editor.undo(&mut city.world).unwrap();
     assert!(Difference::between(&before, &city.world).is_empty());
+}
+
+#[test]
+fn an_answer_speaks_of_junctions_of_sides_of_streets_and_of_what_it_makes_itself() {
+    let mut city = City::read("quarter");
+    let before = city.world.clone();
+    let me = city.me;
+    let answer = r#"{"cannot": "", "edits": [
+        {"do": "add", "asset": "table", "color": "as_it_is", "name": "Anna's table", "count": 1, "percent": 0, "height": 110,
+            "places": [{"is": "at_junction", "junction": "Oak Street and Station Road"}]},
+        {"do": "add", "asset": "chair", "color": "as_it_is", "name": "", "count": 1, "percent": 100, "height": 0,
+            "places": [{"is": "near", "of": "new1"}]},
+        {"do": "add", "asset": "bench", "color": "as_it_is", "name": "", "count": 1, "percent": 100, "height": 0,
+            "places": [{"is": "along_street", "streets": ["Oak Street"]},
+                {"is": "on_side_of_street", "streets": ["Oak Street"], "side": "north"}]},
+        {"do": "close_streets", "streets": ["Oak Street from Harbour Road to Station Road"]},
+        {"do": "tell", "words": "the table is as high as a bar"},
+        {"do": "face", "things": ["new2"], "towards": "me"}]}"#;
+    let (model, asked) = answering(&[answer]);
+    let words =
+        format!("{STRANGE}, say, along Oak Street and Station Road, with a table or a chair and a bench");
+    let done = editor(&city, model)
+        .say(&words, &mut city.world)
+        .unwrap_or_else(|error| panic!("{error}: {}", text(&asked.last(), 1)));
+    let [table, chair, bench] = done.made[..] else { panic!("{:?}", done.made) };
+    let thing = |id| city.world.entity(id).unwrap();
+    assert!((thing(table).info.shape.size().z - 1.1).abs() < 1e-9);
+    assert_eq!(thing(table).info.name.as_deref(), Some("Anna's table"));
+    assert!((thing(table).planar() - Point2::new(100.0, 0.0)).norm() < 25.0);
+    assert!((thing(chair).planar() - thing(table).planar()).norm() < 35.0, "near what was made first");
+    assert!(thing(bench).planar().y > 0.0, "north of Oak Street");
+    let way = thing(me).planar() - thing(chair).planar();
+    assert!((yaw_of(thing(chair).pose) - heading(&way)).abs() < 1e-6, "it looks at who asked");
+    assert_eq!(Difference::between(&before, &city.world).passages.len(), 2, "one piece, both ways");
+    assert_eq!(done.answer.as_deref(), Some("the table is as high as a bar"));
 }
 
 #[test]
@@ -93,7 +129,7 @@ fn wrong_ids_are_repaired_once_and_nonsense_is_a_typed_error() {
     let both =
         format!(r#"{{"cannot": "no", "edits": [{{"do": "remove", "things": ["{}"]}}]}}"#, city.ids["chair"]);
     let row = format!(
-        r#"{{"cannot": "", "edits": [{{"do": "row", "asset": "cone", "color": "red", "count": 3, "every": 100,
+        r#"{{"cannot": "", "edits": [{{"do": "row", "asset": "cone", "color": "red", "name": "", "percent": 100, "height": 0, "count": 3, "every": 100,
             "line": {{"is": "around", "of": "{}"}}}}]}}"#,
         city.ids["statue"]
     );
@@ -116,7 +152,7 @@ fn half_of_an_answer_is_never_left() {
     let before = city.world.clone();
     let answer = format!(
         r#"{{"cannot": "", "edits": [{{"do": "remove", "things": ["{}"]}},
-            {{"do": "add", "asset": "bus", "color": "red", "count": 1, "percent": 100, "places": [{{"is": "in_middle_of", "of": "{}"}}, {{"is": "far_from", "of": "{}"}}]}}]}}"#,
+            {{"do": "add", "asset": "bus", "color": "red", "name": "", "count": 1, "percent": 100, "height": 0, "places": [{{"is": "in_middle_of", "of": "{}"}}, {{"is": "far_from", "of": "{}"}}]}}]}}"#,
         city.ids["chair"], city.ids["square"], city.ids["fountain"]
     );
     let (model, asked) = answering(&[&answer]);

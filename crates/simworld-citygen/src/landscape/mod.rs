@@ -170,7 +170,8 @@ impl Landscape {
     }
 }
 
-fn present_or_new(asset: Asset, world: &mut World) -> Result<AssetId, WorldError> {
+/// The world's own asset of that name, or this one, which it then has.
+pub(crate) fn present_or_new(asset: Asset, world: &mut World) -> Result<AssetId, WorldError> {
     match world.assets().and_then(|assets| assets.find(&asset.name)) {
         Some(id) => Ok(id),
         None => Ok(world.add_asset(asset)?),
@@ -195,7 +196,8 @@ fn accessible(desc: EntityDesc, access: Option<Point3>) -> EntityDesc {
     }
 }
 
-fn scaled(shape: &Shape, scale: f64) -> Shape {
+/// A shape that much larger in all three directions.
+pub(crate) fn scaled(shape: &Shape, scale: f64) -> Shape {
     match *shape {
         Shape::Box { size } => Shape::Box { size: size * scale },
         Shape::Cylinder { radius, height } => {

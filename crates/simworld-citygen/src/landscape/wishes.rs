@@ -88,6 +88,12 @@ pub(super) fn refuse(spec: &SceneSpec) -> Result<(), LandscapeError> {
     if spec.streets.parked == Amount::Many {
         return no("rows of parked cars", "ask for a town, or leave them out");
     }
+    if !spec.features.districts.is_empty() {
+        return no("districts", "ask for a city");
+    }
+    if !spec.features.sites.is_empty() {
+        return no("sites that are said beforehand", "leave them out, or ask for a city");
+    }
     let wild = spec.kind == SceneKind::Wilderness;
     if wild && !spec.features.squares.is_empty() {
         return no("squares", "ask for a countryside with a village");

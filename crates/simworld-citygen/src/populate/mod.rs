@@ -35,7 +35,8 @@ pub(crate) const MARGIN: f64 = 120.0;
 /// The entities that a city became.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CityEntities {
-    /// One a building, in the order of [`City::buildings`].
+    /// One a building, in the order of [`City::buildings`]; behind these the landmarks of a
+    /// [`Settlement`](crate::settlement::Settlement).
     pub buildings: Vec<EntityId>,
     /// The other solids of buildings of more than one: rear wings, towers; in the order of [`City::buildings`].
     pub wings: Vec<EntityId>,

@@ -1,20 +1,10 @@
 //! Open ground: squares and parks between the streets, water beside the place.
 
-use simworld_core::geometry::{Obb, Point2, Point3, Vector2, Vector3, heading, pose_facing};
-use simworld_core::net::{RoadNetwork, polyline};
+use simworld_core::geometry::{Point2, Point3, Vector2, pose_facing};
+use simworld_core::net::RoadNetwork;
 use simworld_core::scene::{EntityDesc, EntityKind, Shape};
-use simworld_core::spec::{FeatureWish, Water};
+use simworld_core::spec::Water;
 
-use super::SettlementError;
-use crate::City;
-
-/// Along and across a square and a park, m.
-const SQUARE: (f64, f64) = (32.0, 26.0);
-const PARK: (f64, f64) = (46.0, 36.0);
-/// Between open ground and the sidewalks around it, m.
-const ROOM: f64 = 1.0;
-/// Places for open ground are tried so far from each other, m.
-const STEP: f64 = 8.0;
 /// Between the outermost pavement and water, and how far water reaches, m.
 const SHORE: f64 = 6.0;
 const BASIN: f64 = 80.0;
@@ -39,12 +29,6 @@ pub struct Area {
 }
 
 impl Area {
-    /// The box that it fills.
-    fn obb(&self) -> Obb {
-        let pose = pose_facing(Point3::new(self.middle.x, self.middle.y, 0.0), self.facing);
-        Obb { pose, half_extents: Vector3::new(self.size.x * 0.5, self.size.y * 0.5, 1.0) }
-    }
-
     /// The ground as an entity.
     pub(super) fn desc(&self) -> EntityDesc {
         let color = match self.used_as {
@@ -59,89 +43,6 @@ impl Area {
             .with("area", self.used_as)
             .colored(color)
     }
-}
-
-/// Lays all of it out, and takes away what stands there.
-pub(super) fn laid_out(city: &mut City, wish: &FeatureWish) -> Result<Vec<Area>, SettlementError> {
-    let mut areas: Vec<Area> = Vec::new();
-    let squares = wish.squares.iter().map(|name| (name, "square", SQUARE));
-    let parks = wish.parks.iter().map(|name| (name, "park", PARK));
-    for (name, used_as, size) in squares.chain(parks) {
-        let no_room = || SettlementError::NoGround { name: name.clone() };
-        let site = site(city, &areas, size).ok_or_else(no_room)?;
-        let area = Area { name: name.clone(), used_as, ..site };
-        let taken = area.obb();
-        city.buildings.retain(|building| !building.solids().any(|solid| solid.footprints_overlap(&taken)));
-        // A park keeps its trees, and a square nothing.
-        city.elements.retain(|element| {
-            let stays = used_as == "park" && element.kind == EntityKind::Tree;
-            stays || !element.obb().footprints_overlap(&taken)
-        });
-        areas.push(area);
-    }
-    for (rank, water) in wish.waters.iter().enumerate() {
-        areas.extend(shore(&city.network, *water, rank));
-    }
-    Ok(areas)
-}
-
-/// The open ground nearest to the middle for which least has to go.
-fn site(city: &City, areas: &[Area], (along, across): (f64, f64)) -> Option<Area> {
-    let (low, high) = city.network.bounds()?;
-    let middle = Point2::from((low.coords + high.coords) * 0.5);
-    let steps = ((high - low) / STEP).map(f64::ceil);
-    let mut best: Option<(f64, Area)> = None;
-    for row in 0..=steps.y as u32 {
-        for column in 0..=steps.x as u32 {
-            let at = low + Vector2::new(f64::from(column), f64::from(row)) * STEP;
-            let cost = (at - middle).norm();
-            if best.as_ref().is_some_and(|(least, _)| cost >= *least) {
-                continue;
-            }
-            let Some(facing) = street_beside(&city.network, at) else { continue };
-            for turn in [0.0, std::f64::consts::FRAC_PI_2] {
-                let size = Vector2::new(along, across);
-                let area = Area { name: String::new(), used_as: "", middle: at, size, facing: facing + turn };
-                let obb = area.obb();
-                let gone = city.buildings.iter().filter(|one| one.obb().footprints_overlap(&obb)).count();
-                let cost = cost + 6.0 * gone as f64;
-                let is_better = best.as_ref().is_none_or(|(least, _)| cost < *least);
-                if is_better && is_open(&city.network, areas, &obb) {
-                    best = Some((cost, area));
-                }
-            }
-        }
-    }
-    best.map(|(_, area)| area)
-}
-
-/// The direction of the nearest street, if one is near enough to lead there.
-fn street_beside(network: &RoadNetwork, at: Point2) -> Option<f64> {
-    let near = network.roads.iter().filter_map(|road| {
-        let near = polyline::closest(&road.centerline, &at)?;
-        let (_, along) = polyline::at(&road.centerline, near.station);
-        Some((near.distance, along))
-    });
-    let (distance, along) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (distance <= 60.0).then_some(along)
-}
-
-/// Whether no street and no other open ground lies there.
-fn is_open(network: &RoadNetwork, areas: &[Area], taken: &Obb) -> bool {
-    if areas.iter().any(|area| area.obb().footprints_overlap(taken)) {
-        return false;
-    }
-    network.roads.iter().all(|road| {
-        let widest = road.sidewalks.into_iter().flatten().map(|walk| network.sidewalks[walk.index()].width);
-        let reach = road.left_kerb.max(road.right_kerb) + widest.fold(0.0, f64::max) + ROOM;
-        road.centerline.windows(2).all(|piece| {
-            let way = piece[1] - piece[0];
-            let middle = piece[0] + way * 0.5;
-            let pose = pose_facing(Point3::new(middle.x, middle.y, 0.0), heading(&way));
-            let half_extents = Vector3::new(way.norm() * 0.5 + reach, reach, 1.0);
-            !Obb { pose, half_extents }.footprints_overlap(taken)
-        })
-    })
 }
 
 /// What the streets cover: their kerbs, turning circles and sidewalks within.
@@ -162,7 +63,7 @@ fn paved(network: &RoadNetwork) -> Option<(Point2, Point2)> {
 }
 
 /// Water along one side: the first in the south, then east, north and west.
-fn shore(network: &RoadNetwork, water: Water, rank: usize) -> Option<Area> {
+pub(super) fn shore(network: &RoadNetwork, water: Water, rank: usize) -> Option<Area> {
     let (low, high) = paved(network)?;
     let (middle, size) = (Point2::from((low.coords + high.coords) * 0.5), high - low);
     let reach = if water == Water::River { RIVER } else { BASIN };

@@ -21,9 +21,9 @@ pub enum SettlementError {
         /// Its name.
         kind: &'static str,
     },
-    /// Landmarks by name.
+    /// A landmark that the library does not have.
     #[error(
-        "{name:?} finds no place of its own in a city: name a use, such as a museum, or ask for an island or a countryside"
+        "the library has no building {name:?}: give a name of `Catalogue::library`, such as cathedral, or a use, such as museum"
     )]
     Landmark {
         /// What was asked for.
@@ -38,7 +38,7 @@ pub enum SettlementError {
         most: usize,
     },
     /// No open ground was left.
-    #[error("there is no room for {name}: ask for more streets, or for fewer squares and parks")]
+    #[error("there is no room for {name}: ask for more streets, or for fewer squares, parks and landmarks")]
     NoGround {
         /// What it is called.
         name: String,
@@ -49,4 +49,36 @@ pub enum SettlementError {
     /// The world refused an entity.
     #[error(transparent)]
     World(#[from] WorldError),
+}
+
+/// What a place has otherwise than it was asked for.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SettlementRemark {
+    /// A landmark for which no block is large enough.
+    #[error("{name} is built at {percent} % of its size: between the streets there is no room for more")]
+    Smaller {
+        /// What it is called.
+        name: String,
+        /// Of its length, width and height.
+        percent: u32,
+    },
+    /// Something that found no room in the part of the place that was named.
+    #[error("{name} is not in that part of the place ({part}): there is no room for it there")]
+    Elsewhere {
+        /// What it is called.
+        name: String,
+        /// The part, as in [`Whereabouts`](simworld_core::spec::Whereabouts).
+        part: &'static str,
+    },
+    /// Something that found no room beside what was named.
+    #[error("{name} is {distance:.0} m from the {by}: nearer there is no room for it")]
+    Apart {
+        /// What it is called.
+        name: String,
+        /// What it was to be beside.
+        by: String,
+        /// How far its middle is from it, m.
+        distance: f64,
+    },
 }

@@ -1,21 +1,29 @@
-//! A place as it is asked for: from a [`SceneSpec`] to a city with as many houses, with its squares, its parks and its water.
+//! A place as it is asked for: from a [`SceneSpec`] to a city with as many houses, with its districts, its landmarks, its squares, its
+//! parks and its water.
 
+mod aim;
 mod areas;
+mod districts;
 mod error;
+mod extent;
+mod landmarks;
+mod layout;
+mod uses;
 
-use std::collections::BTreeMap;
-
+use simworld_core::asset::Catalogue;
 use simworld_core::environment::Environment;
-use simworld_core::geometry::Point2;
-use simworld_core::scene::{Place, World};
+use simworld_core::scene::World;
 use simworld_core::seed::Seed;
-use simworld_core::spec::{Amount, BuildingWish, Height, Pattern, SceneKind, SceneSpec, Width};
+use simworld_core::spec::{Amount, BuildingWish, DistrictKind, Height, Pattern, SceneKind, SceneSpec, Width};
 
 pub use areas::Area;
-pub use error::SettlementError;
+pub use error::{SettlementError, SettlementRemark};
+pub use landmarks::Landmark;
 
 use crate::building::Building;
+use crate::landscape::present_or_new;
 use crate::{City, CityConfig, CityEntities, Style};
+use extent::{Extent, middle_of};
 
 /// Houses that a piece of street has, on the safe side.
 const HOUSES: u32 = 3;
@@ -23,6 +31,8 @@ const HOUSES: u32 = 3;
 const STREETS: u32 = 60;
 /// So often a city with too few houses is grown anew with half as many streets again.
 const TRIES: u32 = 9;
+/// So often it is grown anew where squares, parks and landmarks find no room.
+const TRIES_FOR_GROUND: u32 = 3;
 /// Storeys of low houses at the most, and of high ones in the middle at the least.
 const LOW: u32 = 2;
 const HIGH: u32 = 6;
@@ -39,6 +49,10 @@ pub struct Settlement {
     pub city: City,
     /// Squares, parks and water.
     pub areas: Vec<Area>,
+    /// Buildings of the library that were asked for by name; they are none of the city's.
+    pub landmarks: Vec<Landmark>,
+    /// What is otherwise than it was asked for.
+    pub remarks: Vec<SettlementRemark>,
     /// Sun and weather.
     pub environment: Environment,
 }
@@ -59,14 +73,11 @@ impl Settlement {
     /// ```
     ///
     /// # Errors
-    /// A spec out of range, another kind of scene than a city, or more than finds room.
+    /// A spec out of range, another kind of scene than a city, a landmark that the library does not have, or more than finds room.
     pub fn build(spec: &SceneSpec, seed: Seed) -> Result<Self, SettlementError> {
         spec.validate()?;
         if spec.kind != SceneKind::City {
             return Err(SettlementError::Kind { kind: spec.kind.as_str() });
-        }
-        if let Some(name) = spec.features.landmarks.keys().next() {
-            return Err(SettlementError::Landmark { name: name.clone() });
         }
         let wanted = spec.buildings.count.unwrap_or(0).max(spec.features.places.values().sum());
         let mut count = spec.streets.count.unwrap_or(match spec.buildings.count {
@@ -74,20 +85,45 @@ impl Settlement {
             None => STREETS,
         });
         let mut most = 0;
-        for _ in 0..TRIES {
-            let mut city = City::generate(&config_of(spec, count), seed)?;
-            city.provenance.title.clone_from(&spec.title);
-            let areas = areas::laid_out(&mut city, &spec.features)?;
-            most = city.buildings.len();
-            if most >= wanted as usize {
-                let mut place = Self { city, areas, environment: spec.environment };
-                place.keep(&spec.buildings);
-                place.use_as(&spec.features.places);
-                return Ok(place);
+        for rank in 0..TRIES {
+            let may_grow = spec.streets.count.is_none() && rank + 1 < TRIES_FOR_GROUND;
+            match Self::grown(spec, count, wanted, seed) {
+                Ok(Ok(place)) => return Ok(place),
+                Ok(Err(houses)) => most = houses,
+                Err(SettlementError::NoGround { .. }) if may_grow => {}
+                Err(error) => return Err(error),
             }
             count = count * 3 / 2 + 1;
         }
         Err(SettlementError::TooMany { wanted, most })
+    }
+
+    /// The place on so many pieces of street, or how many houses it has if these are fewer than are wanted.
+    fn grown(
+        spec: &SceneSpec,
+        streets: u32,
+        wanted: u32,
+        seed: Seed,
+    ) -> Result<Result<Self, usize>, SettlementError> {
+        let mut config = config_of(spec, streets);
+        let mut city = City::generate(&config, seed)?;
+        let mut extent = Extent::of(&city.buildings, spec.buildings.count);
+        if !spec.features.districts.is_empty() {
+            // How far the place reaches is known once there are houses; the streets stay the same.
+            config.zoning.districts = districts::placed(&spec.features, extent, seed);
+            city = City::generate(&config, seed)?;
+            extent = Extent::of(&city.buildings, spec.buildings.count);
+        }
+        city.provenance.title.clone_from(&spec.title);
+        let mut laid = layout::laid_out(&mut city, &spec.features, extent, &Catalogue::library())?;
+        if city.buildings.len() < wanted as usize {
+            return Ok(Err(city.buildings.len()));
+        }
+        keep(&mut city, &spec.buildings);
+        let told = uses::use_as(&mut city, &spec.features, &laid);
+        laid.remarks.extend(told);
+        let layout::Laid { areas, landmarks, remarks } = laid;
+        Ok(Ok(Self { city, areas, landmarks, remarks, environment: spec.environment }))
     }
 
     /// Puts the place into a world, with its sun and weather.
@@ -99,83 +135,45 @@ impl Settlement {
         for area in &self.areas {
             entities.surfaces.push(world.spawn(area.desc())?);
         }
+        let library = Catalogue::library();
+        for landmark in &self.landmarks {
+            let missing = || SettlementError::Landmark { name: landmark.asset.clone() };
+            let asset = library.find(&landmark.asset).and_then(|id| library.get(id)).ok_or_else(missing)?;
+            let id = present_or_new(asset.clone(), world)?;
+            entities.buildings.push(world.spawn(landmark.desc(asset, id))?);
+        }
         world.set_environment(self.environment).map_err(simworld_core::spec::SpecError::from)?;
         Ok(entities)
     }
-
-    /// Leaves so many houses as are wanted, those nearest to the middle, as high as they are wanted.
-    fn keep(&mut self, wish: &BuildingWish) {
-        let middle = middle_of(&self.city.buildings);
-        let away = |building: &Building| (building.center - middle).norm();
-        if let Some(count) = wish.count {
-            let mut ranked: Vec<(usize, f64)> = self.city.buildings.iter().map(away).enumerate().collect();
-            ranked.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-            let mut kept = vec![false; self.city.buildings.len()];
-            ranked.iter().take(count as usize).for_each(|(index, _)| kept[*index] = true);
-            let mut kept = kept.into_iter();
-            self.city.buildings.retain(|_| kept.next().unwrap_or(false));
-        }
-        let farthest = self.city.buildings.iter().map(away).fold(0.0, f64::max);
-        let is_small = wish.count.is_some_and(|count| count <= SMALL);
-        for building in &mut self.city.buildings {
-            let central = away(building) <= farthest * MIDDLE;
-            building.storeys = match wish.height {
-                Height::Low => building.storeys.min(LOW),
-                Height::High if central => building.storeys.max(HIGH),
-                Height::Usual if is_small => building.storeys.min(SMALL_STOREYS),
-                Height::Usual | Height::High => building.storeys,
-            };
-        }
-    }
-
-    /// Has exactly so many houses of each use that is named: the largest near the middle take it on, and what is too much is lived in.
-    fn use_as(&mut self, wanted: &BTreeMap<Place, u32>) {
-        let middle = middle_of(&self.city.buildings);
-        for (place, count) in wanted {
-            let mut have: Vec<usize> = (0..self.city.buildings.len())
-                .filter(|index| self.city.buildings[*index].place == *place)
-                .collect();
-            for index in have.split_off(have.len().min(*count as usize)) {
-                let building = &mut self.city.buildings[index];
-                (building.place, building.name) = (Place::Home, None);
-            }
-            for number in have.len()..*count as usize {
-                let free = self
-                    .city
-                    .buildings
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, one)| !wanted.contains_key(&one.place));
-                let fit = |one: &Building| one.footprint_area() / (50.0 + (one.center - middle).norm());
-                let best = free.max_by(|a, b| fit(a.1).total_cmp(&fit(b.1)).then(b.0.cmp(&a.0)));
-                let Some(index) = best.map(|(index, _)| index) else { return };
-                let building = &mut self.city.buildings[index];
-                building.place = *place;
-                building.name = Some(name_of(*place, number, self.city.provenance.title.as_deref()));
-            }
-        }
-    }
 }
 
-/// "Little Haven Museum", "Second Museum".
-fn name_of(place: Place, number: usize, title: Option<&str>) -> String {
-    let mut word = place.as_str().replace('_', " ");
-    if let Some(first) = word.get_mut(..1) {
-        first.make_ascii_uppercase();
+/// Leaves so many houses as are wanted, those nearest to the middle, as high as they are wanted.
+fn keep(city: &mut City, wish: &BuildingWish) {
+    let middle = middle_of(&city.buildings);
+    let away = |building: &Building| (building.center - middle).norm();
+    if let Some(count) = wish.count {
+        let mut ranked: Vec<(usize, f64)> = city.buildings.iter().map(away).enumerate().collect();
+        ranked.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        let mut kept = vec![false; city.buildings.len()];
+        ranked.iter().take(count as usize).for_each(|(index, _)| kept[*index] = true);
+        let mut kept = kept.into_iter();
+        city.buildings.retain(|_| kept.next().unwrap_or(false));
     }
-    match number {
-        0 => format!("{} {word}", title.unwrap_or("Town")),
-        1 => format!("Second {word}"),
-        2 => format!("Third {word}"),
-        more => format!("{word} {}", more + 1),
+    let farthest = city.buildings.iter().map(away).fold(0.0, f64::max);
+    let is_small = wish.count.is_some_and(|count| count <= SMALL);
+    let districts = &city.config.zoning.districts;
+    for building in &mut city.buildings {
+        let central = away(building) <= farthest * MIDDLE;
+        let district = districts.iter().find(|district| district.form.holds(building.center));
+        let is_old = district.is_some_and(|district| district.kind == DistrictKind::OldTown);
+        building.storeys = match wish.height {
+            Height::Low => building.storeys.min(LOW),
+            Height::High if central && !is_old => building.storeys.max(HIGH),
+            Height::Usual if is_small => building.storeys.min(SMALL_STOREYS),
+            _ if is_old => building.storeys.min(SMALL_STOREYS),
+            Height::Usual | Height::High => building.storeys,
+        };
     }
-}
-
-fn middle_of(buildings: &[Building]) -> Point2 {
-    let count = buildings.len().max(1) as f64;
-    Point2::from(
-        buildings.iter().fold(nalgebra::Vector2::zeros(), |sum, one| sum + one.center.coords / count),
-    )
 }
 
 /// The settings of the generator that a spec means, for so many pieces of street.

@@ -1,8 +1,9 @@
-//! Zoning: what the land is used for, from seeded fields that can be asked at any point.
+//! Zoning: what the land is used for, from seeded fields that can be asked at any point, and from the districts that were asked for.
 //!
 //! Two fields of value noise, the density of people and the character of the place, are functions of the seed and the
 //! point alone. So a tile, a thread or an edit far away sees the same zones.
 
+mod district;
 mod noise;
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +11,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::seed::Seed;
 
 use crate::CityError;
+pub use district::{District, DistrictForm};
 pub(crate) use noise::{RememberedNoise, ValueNoise, floor};
 
 /// What a piece of land is used for.
@@ -62,6 +64,8 @@ pub struct ZoningConfig {
     pub civic: f64,
     /// Share of the land that is park, in [0, 0.5].
     pub parks: f64,
+    /// Parts of the city with a character of their own, at most 64; where they overlap the first counts.
+    pub districts: Vec<District>,
 }
 
 impl Default for ZoningConfig {
@@ -73,6 +77,7 @@ impl Default for ZoningConfig {
             industry: 0.2,
             civic: 0.07,
             parks: 0.05,
+            districts: Vec::new(),
         }
     }
 }
@@ -86,7 +91,8 @@ impl ZoningConfig {
             ("zoning.industry", self.industry, 0.0, 1.0, "0 to 1"),
             ("zoning.civic", self.civic, 0.0, 0.5, "0 to 0.5"),
             ("zoning.parks", self.parks, 0.0, 0.5, "0 to 0.5"),
-        ])
+        ])?;
+        district::validate(&self.districts)
     }
 }
 
@@ -118,8 +124,19 @@ impl Zoning {
         }
     }
 
+    /// The district at a point, if one lies there.
+    pub fn district(&self, point: Point2) -> Option<&District> {
+        self.config.districts.iter().find(|district| district.form.holds(point))
+    }
+
     /// How densely people live and work at a point, from 0 (fields) to 1 (the middle of a metropolis).
     pub fn density(&self, point: Point2) -> f64 {
+        let usual = self.usual_density(point);
+        self.district(point).map_or(usual, |district| district.density(usual))
+    }
+
+    /// The density that the fields say.
+    fn usual_density(&self, point: Point2) -> f64 {
         let wild = self.density.uniform_at(point);
         let radius = self.config.center_radius;
         if radius <= 0.0 {
@@ -132,7 +149,11 @@ impl Zoning {
 
     /// What the land at a point is used for.
     pub fn zone(&self, point: Point2) -> Zone {
-        let (density, character) = (self.density(point), self.character.uniform_at(point));
+        let character = self.character.uniform_at(point);
+        if let Some(district) = self.district(point) {
+            return district.zone(character);
+        }
+        let density = self.usual_density(point);
         let Self { config, .. } = self;
         // The character of the land is spread evenly over [0, 1]: each use takes its share of it, from either end.
         if character < config.parks {

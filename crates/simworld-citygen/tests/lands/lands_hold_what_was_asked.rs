@@ -8,7 +8,9 @@ use simworld_core::ground::Cover;
 use simworld_core::net::{Route, RouteScratch, WaypointConfig, WaypointGraph, polyline};
 use simworld_core::scene::{EntityKind, Place, Scene, World};
 use simworld_core::seed::Seed;
-use simworld_core::spec::{Amount, Height, SceneKind, SceneSpec, Water};
+use simworld_core::spec::{
+    Amount, DistrictKind, DistrictWish, Height, SceneKind, SceneSpec, SiteWish, Water, Whereabouts,
+};
 
 const KINDS: [SceneKind; 3] = [SceneKind::Countryside, SceneKind::Wilderness, SceneKind::Island];
 
@@ -267,6 +269,14 @@ fn what_such_a_place_does_not_have_is_refused() {
     unsuited(refused(SceneKind::Island, |spec| spec.features.waters.push(Water::River)));
     unsuited(refused(SceneKind::Island, |spec| spec.buildings.height = Height::High));
     unsuited(refused(SceneKind::Countryside, |spec| spec.streets.parked = Amount::Many));
+    unsuited(refused(SceneKind::Countryside, |spec| {
+        let (kind, at) = (DistrictKind::Industrial, Whereabouts::East);
+        spec.features.districts.push(DistrictWish { kind, at, by: None });
+    }));
+    unsuited(refused(SceneKind::Island, |spec| {
+        let (what, at) = ("lighthouse".to_owned(), Whereabouts::North);
+        spec.features.sites.push(SiteWish { what, at, by: None });
+    }));
     let error = refused(SceneKind::Island, |spec| spec.buildings.count = Some(700));
     assert!(matches!(error, LandscapeError::TooMany { .. }), "{error}");
     let error = refused(SceneKind::Island, |spec| {

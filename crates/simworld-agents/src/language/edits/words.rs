@@ -403,7 +403,7 @@ pub(in crate::language) const SKY_ROWS: &[(&[&str], Sky)] = &[
 
 /// What stops.
 #[rustfmt::skip]
-pub(super) const ENDINGS: &[(&[&str], Sky)] = &[
+pub(in crate::language) const ENDINGS: &[(&[&str], Sky)] = &[
     (&["rain", "raining", "rainfall", "downpour", "drizzle", "drizzling"], Sky::DryUp),
     (&["snow", "snowing", "snowfall", "blizzard"], Sky::NoSnow),
     (&["fog", "mist", "haze"], Sky::NoFog),

@@ -1,8 +1,13 @@
 //! Edits read by a model: what the words may mean is looked for first, so that the schema holds few ids and few assets.
 
 mod answer;
+mod bearings;
+mod places;
 mod recall;
 mod shape;
+mod ways;
+mod written;
+mod written_places;
 
 use std::sync::Arc;
 
@@ -12,6 +17,7 @@ use crate::editing::{Asked, Edit, EditError, EditReader};
 use crate::model::ChatModel;
 
 pub(crate) use recall::Recalled;
+pub use written::EditAnswer;
 
 /// The tokens that things, assets and streets may take in a prompt, where nothing else is said.
 const BUDGET: usize = 2500;
@@ -72,12 +78,13 @@ impl ModelReader {
 
     fn question(&self, asked: &Asked<'_>, known: &Recalled) -> Result<Question, ReasonError> {
         let words: String = asked.words.chars().take(LONGEST).collect();
-        let (things, assets, streets) = known.texts();
+        let [things, assets, streets, junctions] = known.texts();
         let spoken = asked.it.map_or_else(|| "nothing".to_owned(), |it| it.to_string());
         let user = [
             ("things", &*things),
             ("assets", &assets),
             ("streets", &streets),
+            ("junctions", &junctions),
             ("spoken", &spoken),
             ("request", &one_line(&words)),
         ];
@@ -86,7 +93,7 @@ impl ModelReader {
             user: self.prompts.render(Prompt::Edit, &user)?,
             images: Vec::new(),
             name: "edits",
-            schema: shape::schema(known),
+            schema: shape::schema(known, shape::MOST_EDITS),
         })
     }
 }

@@ -5,12 +5,13 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use simworld_core::geometry::Aabb;
-use simworld_core::id::{EntityId, RoadId};
+use simworld_core::id::{EntityId, IntersectionId, RoadId};
 use simworld_core::scene::{EntityKind, EntityRef};
 use simworld_core::value::Value;
 
 use super::super::prompts::one_line;
-use crate::editing::Asked;
+use super::ways::Ways;
+use crate::editing::{Asked, Edit};
 use crate::language::name_of_color;
 use crate::retrieval::AssetIndex;
 
@@ -20,19 +21,33 @@ const NEAR: f64 = 60.0;
 const AROUND: f64 = 400.0;
 /// The most things, assets and streets that a schema holds.
 const MOST: (usize, usize, usize) = (60, 24, 16);
+/// The most pieces of streets that are named, and the most junctions.
+const PIECES: usize = 24;
+/// So many of the things that an answer makes may be spoken of in it.
+const MADE: u32 = 5;
+/// How an answer calls who looks at the scene, and, with a number from 1 on, what it makes itself.
+pub(super) const VIEWER: &str = "me";
+pub(super) const NEW: &str = "new";
 /// Bytes of a token, on the safe side.
 const TOKEN: usize = 4;
 /// The most characters of a name that are shown.
 const LONGEST_NAME: usize = 60;
 
 /// What was found.
+#[derive(Default)]
 pub(crate) struct Recalled {
     /// Things by how they are written, the likeliest first.
     pub(super) things: Vec<(String, EntityId)>,
     pub(super) assets: Vec<String>,
-    /// Streets by name.
+    /// Streets and pieces of streets by name.
     pub(super) streets: BTreeMap<String, Vec<RoadId>>,
-    lines: Vec<String>,
+    /// Where streets meet, by their names.
+    pub(super) junctions: BTreeMap<String, IntersectionId>,
+    /// Who looks at the scene, if somebody in it does.
+    pub(super) viewer: Option<EntityId>,
+    /// How many of the things that the answer makes may be spoken of.
+    pub(super) made: u32,
+    pub(super) lines: Vec<String>,
 }
 
 impl Recalled {
@@ -45,7 +60,11 @@ impl Recalled {
             fits
         };
         let assets = assets(asked).into_iter().take(MOST.1).filter(|name| take(name)).collect();
-        let streets = streets(asked, &words).into_iter().filter(|(name, _)| take(name)).collect();
+        let ways = asked.scene.roads().map(|network| Ways::of(network));
+        let ranked_streets = ways.as_ref().map_or_else(Vec::new, |ways| streets(asked, ways, &words));
+        let named = |(_, name, roads): &(usize, String, Vec<RoadId>)| (name.clone(), roads.clone());
+        let mut streets: BTreeMap<String, Vec<RoadId>> =
+            ranked_streets.iter().map(named).filter(|(name, _)| take(name)).collect();
         let (mut things, mut lines) = (Vec::new(), Vec::new());
         for (_, _, id) in ranked(asked, &words).into_iter().take(MOST.0) {
             let Some(line) = asked.scene.entity(id).map(|entity| line(asked, &entity)) else { continue };
@@ -54,14 +73,45 @@ impl Recalled {
                 lines.push(line);
             }
         }
-        Self { things, assets, streets, lines }
+        let mut junctions = BTreeMap::new();
+        if let Some(ways) = &ways {
+            junctions.extend(corners(ways, &ranked_streets).into_iter().filter(|(name, _)| take(name)));
+            streets.extend(pieces(ways, &ranked_streets).into_iter().filter(|(name, _)| take(name)));
+        }
+        Self { things, assets, streets, junctions, viewer: asked.who, made: MADE, lines }
     }
 
-    /// Things, assets and streets as a prompt says them.
-    pub(super) fn texts(&self) -> (String, String, String) {
+    /// Things, assets, streets and junctions as a prompt says them.
+    pub(super) fn texts(&self) -> [String; 4] {
         let or_none = |text: String| if text.is_empty() { "none".to_owned() } else { text };
         let streets: Vec<&str> = self.streets.keys().map(String::as_str).collect();
-        (or_none(self.lines.join("\n")), or_none(self.assets.join(", ")), or_none(streets.join(", ")))
+        let junctions: Vec<&str> = self.junctions.keys().map(String::as_str).collect();
+        [self.lines.join("\n"), self.assets.join(", "), streets.join(", "), junctions.join(", ")].map(or_none)
+    }
+
+    /// What may be changed, as it is written.
+    pub(super) fn subjects(&self) -> impl Iterator<Item = String> {
+        let new = (1..=self.made).map(|number| format!("{NEW}{number}"));
+        self.things.iter().map(|(text, _)| text.clone()).chain(new)
+    }
+
+    /// What something may stand to, as it is written.
+    pub(super) fn anchors(&self) -> impl Iterator<Item = String> {
+        self.subjects().chain(self.viewer.map(|_| VIEWER.to_owned()))
+    }
+
+    /// What may be changed and is written so.
+    pub(super) fn subject(&self, text: &str) -> Option<EntityId> {
+        let known = self.things.iter().find(|(known, _)| known == text).map(|(_, id)| *id);
+        known.or_else(|| {
+            let number: u32 = text.strip_prefix(NEW)?.parse().ok()?;
+            (1..=self.made).contains(&number).then(|| Edit::made(number - 1))
+        })
+    }
+
+    /// What something may stand to and is written so.
+    pub(super) fn anchor(&self, text: &str) -> Option<EntityId> {
+        self.subject(text).or_else(|| self.viewer.filter(|_| text == VIEWER))
     }
 }
 
@@ -155,22 +205,32 @@ fn assets(asked: &Asked<'_>) -> Vec<String> {
     names
 }
 
-/// The streets whose names are said, or that are nearest.
-fn streets(asked: &Asked<'_>, words: &BTreeSet<String>) -> BTreeMap<String, Vec<RoadId>> {
-    let Some(network) = asked.scene.roads() else { return BTreeMap::new() };
-    let mut named: BTreeMap<&str, (Vec<RoadId>, f64)> = BTreeMap::new();
-    for (index, road) in network.roads.iter().enumerate() {
-        let id = RoadId::from_index(index);
-        let Some(name) = network.road_name(id) else { continue };
-        let entry = named.entry(name).or_insert((Vec::new(), f64::INFINITY));
-        entry.0.push(id);
-        let away = road.centerline.iter().map(|at| (at - asked.from).norm()).fold(f64::INFINITY, f64::min);
-        entry.1 = entry.1.min(away);
-    }
+/// The streets whose names are said, or that are nearest: how many words of each were said, what it is called, its pieces.
+fn streets(
+    asked: &Asked<'_>,
+    ways: &Ways<'_>,
+    words: &BTreeSet<String>,
+) -> Vec<(usize, String, Vec<RoadId>)> {
     let said =
         |name: &str| name.split_whitespace().filter(|word| words.contains(&word.to_lowercase())).count();
     let mut ranked: Vec<_> =
-        named.into_iter().map(|(name, (roads, away))| (said(name), away, name, roads)).collect();
+        ways.streets().map(|(name, roads)| (said(name), ways.away(roads, asked.from), name, roads)).collect();
     ranked.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(b.2)));
-    ranked.into_iter().take(MOST.2).map(|(_, _, name, roads)| (one_line(name), roads)).collect()
+    let first = ranked.into_iter().take(MOST.2);
+    first.map(|(said, _, name, roads)| (said, one_line(name), roads.to_vec())).collect()
+}
+
+/// The pieces of streets of which something was said.
+fn pieces(ways: &Ways<'_>, ranked: &[(usize, String, Vec<RoadId>)]) -> Vec<(String, Vec<RoadId>)> {
+    let said = ranked.iter().filter(|(said, _, roads)| *said > 0 && roads.len() > 1);
+    let pieces = said.flat_map(|(_, _, roads)| roads).take(PIECES);
+    pieces.map(|road| (ways.piece(*road), vec![*road])).collect()
+}
+
+/// Where streets of which something was said meet others.
+fn corners(ways: &Ways<'_>, ranked: &[(usize, String, Vec<RoadId>)]) -> BTreeMap<String, IntersectionId> {
+    let said = ranked.iter().filter(|(said, ..)| *said > 0);
+    let ends: BTreeSet<IntersectionId> = said.flat_map(|(_, _, roads)| ways.junctions_of(roads)).collect();
+    let corners = ends.into_iter().filter(|place| ways.meeting(*place).len() > 1).take(PIECES);
+    corners.map(|place| (ways.junction(place), place)).collect()
 }
