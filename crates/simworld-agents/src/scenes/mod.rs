@@ -3,6 +3,11 @@
 //!
 //! [`GrammarSceneReader`] reads the same way every time and says which words it did not understand;
 //! [`ModelSceneReader`](crate::thought::ModelSceneReader) asks a model for the same spec.
+//!
+//! Scenes that are written by hand, thing by thing, are files: module `file` (feature `scene-files`).
+
+#[cfg(feature = "scene-files")]
+pub mod file;
 
 use simworld_core::spec::{SceneSpec, SpecError};
 use thiserror::Error;
