@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release --example edit
 //! cargo run --release --example edit -- --say "add a red sports car next to the nearest hospital" --say undo
+//! cargo run --release --example edit -- --scene examples/assets/scenes/harbour.scene.toml --say "put a bin next to the fountain"
 //! cargo run --release --example edit -- --library examples/assets/harbour --say "put a buoy next to a bench"
 //! cargo run --release --example edit -- --generator offline --say "put a tall three-legged wooden stool next to a bench"
 //! cargo run --release --example edit -- --show-catalogue catalogue.svg
@@ -10,7 +11,7 @@
 //! ```
 
 use std::io::{BufRead, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -19,6 +20,7 @@ use simworld_agents::editing::{Difference, Edited, Placing, ReadBy, SceneEditor}
 use simworld_agents::generation::{HunyuanConfig, HunyuanGenerator, ProceduralGenerator};
 use simworld_agents::library::{LOCK, Library, LibraryLimits};
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
+use simworld_agents::scenes::file::SceneFile;
 use simworld_agents::thought::ModelReader;
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point2, planar};
@@ -27,6 +29,7 @@ use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Source, make};
 use simworld_examples::edit::{Plan, View, contact_sheet, made_sheet};
+use simworld_examples::places::Generated;
 use simworld_examples::{Outcome, exit_code};
 
 /// Type how the scene is to change: "put two benches in front of the school", "paint them blue", "make it a foggy evening".
@@ -40,7 +43,10 @@ struct Arguments {
     /// A saved city; without one a small one is grown.
     #[arg(long, value_name = "FILE.simcity")]
     city: Option<PathBuf>,
-    /// Seed of the city and of where things are put.
+    /// A scene that is written by hand, in place of a city; docs/scenes.md has every key.
+    #[arg(long, value_name = "FILE.scene.toml", conflicts_with = "city")]
+    scene: Option<PathBuf>,
+    /// Seed of the city and of where things are put; a scene that is written by hand has its own.
     #[arg(long, default_value_t = 7)]
     seed: u64,
     /// A sentence to carry out instead of reading from the terminal; may be given several times.
@@ -141,14 +147,13 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         println!("What is made from words is in {}", path.display());
         return Ok(());
     }
-    let source = Source::saved_or_small(arguments.city.as_ref());
-    let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
-    let mut world = World::new();
-    city.populate(&mut world)?;
+    let (world, editor) = match &arguments.scene {
+        Some(path) => written(arguments, path, catalogue)?,
+        None => grown(arguments, catalogue)?,
+    };
     simworld_examples::folder::make_folder(&arguments.out)?;
     let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
-    let editor = editor(arguments, catalogue)?;
-    println!("a city of {} things; type how it is to change", world.len());
+    println!("a scene of {} things; type how it is to change", world.len());
     let mut desk = Desk { arguments, world, editor, view };
     if arguments.say.is_empty() {
         desk.listen()
@@ -161,10 +166,38 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     }
 }
 
+/// A saved city, or a small one.
+fn grown(arguments: &Arguments, catalogue: Catalogue) -> Outcome<(World, SceneEditor)> {
+    let source = Source::saved_or_small(arguments.city.as_ref());
+    let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
+    let mut world = World::new();
+    city.populate(&mut world)?;
+    Ok((world, editor(arguments, arguments.seed, catalogue)?.looking_from(arguments.from)))
+}
+
+/// A scene that is written by hand; what is wrong with how its things stand is told, and they stand so.
+fn written(arguments: &Arguments, path: &Path, catalogue: Catalogue) -> Outcome<(World, SceneEditor)> {
+    let scene = SceneFile::read(path)?;
+    let editor = editor(arguments, scene.seed, catalogue)?;
+    let loaded = scene.load_with(editor, &mut Generated)?;
+    if !loaded.problems.is_empty() {
+        eprintln!("{}", loaded.problems);
+    }
+    let title = scene.title.as_deref().unwrap_or("the scene");
+    let things = loaded.things.iter().map(Vec::len).sum::<usize>();
+    println!("{title}: {things} things, {} sentences", loaded.said.len());
+    for edited in &loaded.said {
+        if let Some(answer) = &edited.answer {
+            println!("  {answer}");
+        }
+    }
+    // What the user says is looked at from where the user says, wherever the file looked from last.
+    Ok((loaded.world, loaded.editor.looking_from(arguments.from)))
+}
+
 /// The editor, with who reads and who makes.
-fn editor(arguments: &Arguments, catalogue: Catalogue) -> Outcome<SceneEditor> {
-    let mut editor =
-        SceneEditor::new(Seed(arguments.seed)).with_catalogue(catalogue).looking_from(arguments.from);
+fn editor(arguments: &Arguments, seed: u64, catalogue: Catalogue) -> Outcome<SceneEditor> {
+    let mut editor = SceneEditor::new(Seed(seed)).with_catalogue(catalogue);
     if let Some(url) = &arguments.model {
         let config = OpenAiConfig {
             base_url: url.clone(),

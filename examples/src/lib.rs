@@ -18,6 +18,7 @@ pub mod folder;
 pub mod look;
 pub mod minds;
 pub mod model;
+pub mod places;
 pub mod processor;
 pub mod report;
 pub mod robot;
@@ -33,3 +34,8 @@ pub use ending::{Outcome, exit_code};
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/your-own-task.md")]
 pub struct YourOwnTask;
+
+/// The page about scenes that are written by hand, likewise.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/scenes.md")]
+pub struct Scenes;

@@ -23,6 +23,8 @@ mod osm_xml;
 mod remote;
 #[path = "../../fuzz/checks/robots.rs"]
 mod robots;
+#[path = "../../fuzz/checks/scene_file.rs"]
+mod scene_file;
 #[path = "../../fuzz/checks/sumo_demand.rs"]
 mod sumo_demand;
 #[path = "../../fuzz/checks/sumo_net.rs"]
@@ -34,7 +36,7 @@ mod urdf;
 type Check = fn(&[u8]);
 
 /// Every target by its name, with an input of its kind.
-const TARGETS: [(&str, Check, &[u8]); 12] = [
+const TARGETS: [(&str, Check, &[u8]); 13] = [
     ("city_file", city_file::check, &[0xf5; 12]),
     ("glb", glb::check, b"glTF\x02\0\0\0\x14\0\0\0\0\0\0\0JSON"),
     ("layout", layout::check, br#"{"roads": [], "buildings": [], "elements": []}"#),
@@ -52,6 +54,11 @@ const TARGETS: [(&str, Check, &[u8]); 12] = [
     ("osm_pbf", osm_pbf::check, &[0x0a, 0x02, 0x0a, 0x00]),
     ("osm_xml", osm_xml::check, br#"<osm version="0.6"><node id="1" lat="0" lon="0"/></osm>"#),
     ("remote", remote::check, b"\x07vget /objects"),
+    (
+        "scene_file",
+        scene_file::check,
+        b"version = 1\n[[thing]]\nasset = \"cone\"\nat = [1, 2.5]\nfacing = \"north\"\n",
+    ),
     (
         "sumo_demand",
         sumo_demand::check,

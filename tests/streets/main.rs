@@ -1,9 +1,11 @@
-//! What moves through whole cities: traffic by the day, drivers of the agents', edits of a city at work, and files through SUMO.
+//! What moves through whole cities: traffic by the day, drivers of the agents', edits of a city at work, and files through SUMO; and
+//! scenes that are written by hand.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod cities_go_through_sumo;
 mod drivers_drive;
 mod edits_take_effect;
+mod scenes_by_hand;
 mod town;
 mod traffic_is_safe;
 mod traffic_keeps_flowing;

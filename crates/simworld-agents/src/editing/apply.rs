@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use simworld_core::alteration::Alteration;
+use simworld_core::asset::Asset;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Pose, heading, pose_facing, yaw_of};
-use simworld_core::id::{EntityId, RoadId};
+use simworld_core::id::{AssetId, EntityId, RoadId};
 use simworld_core::ops::wrap_angle;
 use simworld_core::passage::Passage;
 use simworld_core::scene::{EntityDesc, EntityRef, Relation, Scene, Shape};
@@ -200,12 +201,8 @@ impl Applier<'_> {
         let catalogue = &stock.catalogue;
         let found = catalogue.find(&make.asset).and_then(|id| Some((id, catalogue.get(id)?)));
         let (id, asset) = found.ok_or_else(unknown)?;
-        let mut desc = asset.at(id, Pose::identity());
+        let mut desc = recipe_of(asset, id, make);
         desc.info.asset = self.stocked(asset)?;
-        desc.info.access = door_of(&desc);
-        desc.info.color = make.color.or(desc.info.color);
-        desc.info.name.clone_from(&make.name);
-        resize(&mut desc, make.scale);
         Ok(desc)
     }
 
@@ -364,6 +361,16 @@ fn check_factor(factor: f64) -> Result<(), EditError> {
     }
     let why = format!("give a factor from {} to {}", FACTORS.start(), FACTORS.end());
     Err(EditError::Impossible { what: format!("a size of {factor} times"), why })
+}
+
+/// The recipe of a thing that is made from an asset, which has that id, still without a place.
+pub(crate) fn recipe_of(asset: &Asset, id: AssetId, make: &Make) -> EntityDesc {
+    let mut desc = asset.at(id, Pose::identity());
+    desc.info.access = door_of(&desc);
+    desc.info.color = make.color.or(desc.info.color);
+    desc.info.name.clone_from(&make.name);
+    resize(&mut desc, make.scale);
+    desc
 }
 
 /// Larger in all three directions; the mass grows with the volume.

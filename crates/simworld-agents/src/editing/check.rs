@@ -10,7 +10,7 @@ use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
 use simworld_core::traffic::RoadLeg;
 
 /// How far above what holds it up a thing may be, or sunk into it, m.
-pub(super) const SUPPORT_GAP: f64 = 0.05;
+pub(crate) const SUPPORT_GAP: f64 = 0.05;
 /// Bodies that share less than this in height or width touch, m.
 const TOUCH: f64 = 2e-3;
 

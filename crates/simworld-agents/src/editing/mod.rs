@@ -31,6 +31,10 @@ mod taken;
 mod workshop;
 
 pub use apply::Edited;
+#[cfg(feature = "scene-files")]
+pub(crate) use apply::recipe_of;
+#[cfg(feature = "scene-files")]
+pub(crate) use check::SUPPORT_GAP;
 pub use check::{Difference, Fault, faults};
 pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
@@ -40,7 +44,11 @@ pub use error::EditError;
 pub(crate) use made::nth_made;
 pub(crate) use place::has_flat_top;
 pub use place::{Candidate, Outcome, Placing};
+#[cfg(feature = "scene-files")]
+pub(crate) use place::{is_surface, land_under};
 pub use reader::{Asked, EditReader, ReadBy};
 pub use relax::Relaxed;
 pub(crate) use stock::Stock;
+#[cfg(feature = "scene-files")]
+pub(crate) use stock::called_in;
 pub use taken::Taken;

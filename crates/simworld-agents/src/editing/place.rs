@@ -314,7 +314,7 @@ pub(super) fn in_the_way(scene: &dyn Scene, solid: &Solid, besides: &[EntityId])
 }
 
 /// Whether it is flat ground, on which all else stands.
-pub(super) const fn is_surface(kind: EntityKind) -> bool {
+pub(crate) const fn is_surface(kind: EntityKind) -> bool {
     matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
 }
 
@@ -355,6 +355,13 @@ fn under(land: &Ground, kind: EntityKind, solid: &Solid) -> (f64, f64) {
     }
     let heights = solid.corners().map(|corner| land.height(corner));
     heights.into_iter().fold((middle, middle), |(low, high), at| (low.min(at), high.max(at)))
+}
+
+/// The least and the greatest height of the land under a thing that stands upright at a point of the plane, turned so, radians from
+/// east; m. What stands on legs, on roots or on foundations is looked at under its middle alone.
+#[cfg(feature = "scene-files")]
+pub(crate) fn land_under(land: &Ground, kind: EntityKind, shape: Shape, at: Point2, yaw: f64) -> (f64, f64) {
+    under(land, kind, &Solid::standing(shape, Point3::new(at.x, at.y, 0.0), yaw))
 }
 
 /// Whether the land carries a thing: dry, not too steep, and under all of it.

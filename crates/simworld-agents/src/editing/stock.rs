@@ -148,17 +148,24 @@ impl Applier<'_> {
     /// it is added under a name that ends with its content address. What no entity is made from has no effect, so that it may stay
     /// when the sentence fails.
     pub(super) fn stocked(&mut self, asset: &Asset) -> Result<Option<AssetId>, EditError> {
-        let mut wanted = asset.clone();
-        if find(self.scene.world(), &wanted).is_some_and(|(_, is_same)| !is_same) {
-            let address = asset.content_id().to_string();
-            let kept = wanted.name.len().min(NAME - ADDRESS - 1);
-            wanted.name = format!("{}_{}", &wanted.name[..kept], &address[..ADDRESS]);
-        }
+        let wanted = called_in(self.scene.world(), asset);
         if find(self.scene.world(), &wanted).is_none() {
             self.change(&Command::AddAsset(Box::new(wanted.clone())))?;
         }
         Ok(find(self.scene.world(), &wanted).map(|(id, _)| id))
     }
+}
+
+/// An asset under the name that it has in a world, or is to have: its own or, where the world has another one of that name, one that
+/// ends with its content address.
+pub(crate) fn called_in(world: &World, asset: &Asset) -> Asset {
+    let mut wanted = asset.clone();
+    if find(world, &wanted).is_some_and(|(_, is_same)| !is_same) {
+        let address = asset.content_id().to_string();
+        let kept = wanted.name.len().min(NAME - ADDRESS - 1);
+        wanted.name = format!("{}_{}", &wanted.name[..kept], &address[..ADDRESS]);
+    }
+    wanted
 }
 
 /// The asset of a name in a world, and whether it is the same.

@@ -4,6 +4,11 @@
 //! [`GrammarSceneReader`] reads the same way every time and says which words it did not understand;
 //! [`ModelSceneReader`](crate::thought::ModelSceneReader) asks a model for the same spec. What was understood and cannot be so is
 //! told by a [`SceneRemark`].
+//!
+//! Scenes that are written by hand, thing by thing, are files: module `file` (feature `scene-files`).
+
+#[cfg(feature = "scene-files")]
+pub mod file;
 
 use simworld_core::spec::{SceneKind, SceneSpec, SpecError};
 use thiserror::Error;
