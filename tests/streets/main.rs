@@ -1,6 +1,7 @@
 //! What moves through whole cities: traffic by the day, drivers of the agents', edits of a city at work, and files through SUMO.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
+mod a_running_city_is_edited_by_words;
 mod cities_go_through_sumo;
 mod drivers_drive;
 mod edits_take_effect;

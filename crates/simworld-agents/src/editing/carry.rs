@@ -64,7 +64,7 @@ impl Applier<'_> {
         with_what_hangs_on(self.scene.world(), &with_load.collect::<Vec<_>>())
     }
 
-    /// Whether a thing is not to stand in relation to what stands on it, which goes along.
+    /// Refuses to put a thing in relation to what stands on it, for that goes along.
     pub(super) fn stands_to_no_load_of_its_own(
         &self,
         thing: EntityId,
