@@ -142,8 +142,10 @@ impl Applier<'_> {
         self.change(&Command::Move { id: other, pose: here.solid.pose })?;
         self.carry(&on_one, (&a.solid.pose, &there.solid.pose), &lifted, &what)?;
         self.carry(&on_other, (&b.solid.pose, &here.solid.pose), &lifted, &what)?;
-        self.set_down(&on_one.leaning, on_one.ground, &what)?;
-        self.set_down(&on_other.leaning, on_other.ground, &what)?;
+        for load in [&on_one, &on_other] {
+            let left = load.leaning.iter().copied().filter(|id| ![one, other].contains(id));
+            self.set_down(&left.collect::<Vec<_>>(), load.ground, &what)?;
+        }
         self.focus.it = Some(one);
         Ok(())
     }
