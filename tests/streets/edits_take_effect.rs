@@ -86,6 +86,24 @@ fn a_cone_on_a_lane_is_stopped_for_and_driven_past_when_it_is_put_aside() {
 }
 
 #[test]
+fn what_a_street_is_built_with_is_in_the_way_on_a_lane_as_well() {
+    for thing in ["street lamp", "tree", "hydrant"] {
+        let (mut simulation, place) = streets();
+        let made = say(&mut simulation, &format!("put a {thing} at ({:.1}, {:.1})", place.x, place.y))[0];
+        let size = simulation.world().entity(made).expect("it was put there").info.shape.size();
+        let (least, stood) = watch(&mut simulation, place, 1500);
+        assert!(
+            least > size.x * 0.5 && least > size.y * 0.5,
+            "{thing}: somebody drove through it: {least} m"
+        );
+        assert!(stood > 100, "{thing}: somebody stands before it, {stood} steps");
+        say(&mut simulation, &format!("remove the {thing}"));
+        let (least, _) = watch(&mut simulation, place, 900);
+        assert!(least < HALF, "{thing}: the lane is free and driven on again: {least} m");
+    }
+}
+
+#[test]
 fn what_stands_beside_the_lanes_changes_nothing() {
     let trail = |things: &[(f64, f64)]| {
         let (mut simulation, _) = streets();
@@ -116,6 +134,11 @@ fn after_a_minute(seed: Seed, furnished: bool) -> Vec<Point3> {
                 | EntityKind::Mailbox
                 | EntityKind::Cone
                 | EntityKind::Prop
+                | EntityKind::Tree
+                | EntityKind::StreetLamp
+                | EntityKind::Sign
+                | EntityKind::Hydrant
+                | EntityKind::BusStop
         )
     };
     let put: Vec<EntityId> = world.iter().filter(|one| is_put(one.kind)).map(|one| one.id).collect();

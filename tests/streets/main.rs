@@ -2,6 +2,7 @@
 //! scenes that are written by hand.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
+mod a_running_city_is_edited_by_words;
 mod cities_go_through_sumo;
 mod drivers_drive;
 mod edits_take_effect;

@@ -42,7 +42,7 @@ const PAINTS: [[f32; 3]; 7] = [
 /// who were to drive there take another way.
 ///
 /// People and vehicles that belong to others are seen: drivers stop for them, but not for parked
-/// vehicles (attribute `parked`), which keep within their lanes.
+/// vehicles (attribute `parked`), which keep within their lanes. They stop for what is put on a lane, be it a cone or a tree.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -151,8 +151,11 @@ impl TrafficDynamics {
     /// Finds out who came, and takes out of the traffic whose entities somebody took out of the world.
     fn look_around(&mut self, world: &World) {
         let Self { others, vehicles, pedestrians, traffic, .. } = self;
-        let in_the_way =
-            |entity: &EntityRef<'_>| stands_about(entity) && traffic.is_in_the_way(&seen(entity));
+        let in_the_way = |entity: &EntityRef<'_>| match standing(entity) {
+            Some(Standing::Put) => traffic.is_in_the_way(&seen(entity)),
+            Some(Standing::Built) => traffic.is_on_a_track(&seen(entity)),
+            None => false,
+        };
         let vehicles_own = (0..).map(Who::Vehicle).zip(vehicles.iter());
         let own = vehicles_own.chain((0..).map(Who::Walker).zip(pedestrians.iter()));
         let own = own.filter(|(_, id)| **id != NOBODY).map(|(who, id)| (*id, who));
@@ -274,20 +277,34 @@ fn seen(entity: &EntityRef<'_>) -> Foreign {
     }
 }
 
-/// Whether an entity is something solid that is put somewhere. What a street is built with (lamps, lights, signs, trees, houses) is not:
-/// it stands beside the lanes, or below a bridge.
-fn stands_about(entity: &EntityRef<'_>) -> bool {
-    let is_put = matches!(
-        entity.kind,
+/// What stands in streets.
+#[derive(Clone, Copy)]
+enum Standing {
+    /// Put somewhere, and in the way as soon as a vehicle would touch it.
+    Put,
+    /// What a street is built with beside its lanes, and in the way only where it stands on one.
+    Built,
+}
+
+/// What of the solid things that stand somewhere an entity is. Houses and traffic lights are none: streets lead through the ones, and the
+/// others stand where streets meet.
+fn standing(entity: &EntityRef<'_>) -> Option<Standing> {
+    let standing = match entity.kind {
         EntityKind::Bench
-            | EntityKind::Chair
-            | EntityKind::Table
-            | EntityKind::TrashBin
-            | EntityKind::Mailbox
-            | EntityKind::Cone
-            | EntityKind::Prop
-    );
-    is_put && entity.is_solid() && entity.attachment.is_none()
+        | EntityKind::Chair
+        | EntityKind::Table
+        | EntityKind::TrashBin
+        | EntityKind::Mailbox
+        | EntityKind::Cone
+        | EntityKind::Prop => Standing::Put,
+        EntityKind::Tree
+        | EntityKind::StreetLamp
+        | EntityKind::Sign
+        | EntityKind::Hydrant
+        | EntityKind::BusStop => Standing::Built,
+        _ => return None,
+    };
+    (entity.is_solid() && entity.attachment.is_none()).then_some(standing)
 }
 
 /// Whether an entity is a parked vehicle: it keeps within its parking lane, where nobody drives.

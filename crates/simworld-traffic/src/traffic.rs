@@ -325,6 +325,11 @@ impl Traffic {
         body.is_sound() && self.finder.is_in_the_way(&self.tracks, body)
     }
 
+    /// Whether a body stands where everybody drives, and not beside a lane.
+    pub(crate) fn is_on_a_track(&self, body: &Foreign) -> bool {
+        body.is_sound() && self.finder.is_on_a_track(&self.tracks, body)
+    }
+
     fn update_vehicles(&mut self, dt: f64) {
         let State { vehicles, demand, pedestrians, counters, shown, seconds, steps, .. } = &mut self.state;
         vehicles.entered.clear();

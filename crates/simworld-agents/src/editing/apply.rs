@@ -5,14 +5,15 @@ use std::f64::consts::TAU;
 use simworld_core::alteration::Alteration;
 use simworld_core::asset::Asset;
 use simworld_core::command::Command;
-use simworld_core::geometry::{Pose, heading, pose_facing, yaw_of};
+use simworld_core::geometry::{Pose, heading, yaw_of};
 use simworld_core::id::{AssetId, EntityId, RoadId};
 use simworld_core::ops::wrap_angle;
 use simworld_core::passage::Passage;
-use simworld_core::scene::{EntityDesc, EntityRef, Relation, Scene, Shape};
+use simworld_core::scene::{EntityDesc, EntityRef, Relation, Scene};
 use simworld_core::seed::Stream;
 
 use super::Placing;
+use super::carry::Load;
 use super::describe::{describe, listed};
 use super::edit::{Edit, Make, Stand};
 use super::editable::Editable;
@@ -21,9 +22,11 @@ use super::land::Streets;
 use super::place::Placer;
 use super::reader::ReadBy;
 use super::relax::relaxed;
+use super::rest::with_what_hangs_on;
 use super::row::tell;
 use super::solid::Solid;
 use super::stand::Subject;
+use super::stay::resize;
 use super::stock::{Stock, door_of};
 use super::taken::Taken;
 use crate::language::edits::Focus;
@@ -89,7 +92,7 @@ impl Applier<'_> {
         match edit {
             Edit::Add { make, count, stands } => self.add(make, *count, stands),
             Edit::Row { make, line, spacing } => self.row(make, line, *spacing),
-            Edit::Remove { things } => things.iter().try_for_each(|thing| self.remove(*thing)),
+            Edit::Remove { things } => self.remove_all(things),
             Edit::Move { things, stands } => self.move_all(things, stands),
             Edit::Rotate { things, angle } => things.iter().try_for_each(|thing| {
                 let pose = *self.entity(*thing)?.pose;
@@ -153,7 +156,7 @@ impl Applier<'_> {
         }
         for rank in 0..count {
             let subject = Subject { id: None, kind: desc.kind, info: &desc.info };
-            let pose = self.place(subject, (rank, count), stands, &[])?;
+            let pose = self.place(subject, (rank, count), stands, (&[], &[]))?;
             self.spawn(EntityDesc { pose, ..desc.clone() })?;
         }
         Ok(())
@@ -206,66 +209,47 @@ impl Applier<'_> {
         Ok(desc)
     }
 
-    fn remove(&mut self, thing: EntityId) -> Result<(), EditError> {
-        let at = self.entity(thing)?.planar();
-        self.change(&Command::Remove { id: thing })?;
-        self.focus.place = Some(at);
-        self.focus.it = self.focus.it.filter(|it| *it != thing);
+    /// Takes things out; what stood on them is set down.
+    fn remove_all(&mut self, things: &[EntityId]) -> Result<(), EditError> {
+        // Looked at before anything is gone, for what stands on two of them falls past both.
+        let loads: Vec<Load> = things.iter().map(|thing| self.load(*thing, things)).collect();
+        let mut told = Vec::new();
+        for thing in things {
+            let at = self.entity(*thing)?.planar();
+            told.push(format!("to remove {}", self.label(*thing)));
+            self.change(&Command::Remove { id: *thing })?;
+            self.focus.place = Some(at);
+            self.focus.it = self.focus.it.filter(|it| it != thing);
+        }
+        for (load, what) in loads.iter().zip(&told) {
+            self.set_down(&load.left_in_the_air(), load.ground, what)?;
+        }
         Ok(())
     }
 
+    /// Puts things elsewhere, each with what stands on it.
     fn move_all(&mut self, things: &[EntityId], stands: &[Stand]) -> Result<(), EditError> {
         let count = things.len() as u32;
-        let mut lifted: Vec<EntityId> = things.to_vec();
-        for thing in things {
-            self.scene.world().visit_attached(*thing, &mut |load| lifted.push(load.id));
-        }
+        let mut left = with_what_hangs_on(self.scene.world(), things);
         for (rank, thing) in things.iter().enumerate() {
             let desc = self.entity(*thing)?.to_desc();
+            let load = self.load(*thing, things);
+            self.stands_to_no_load_of_its_own(*thing, &load, stands)?;
+            let mut lifted = self.lifted(&[(*thing, &load)]);
+            lifted.extend(&left);
             let subject = Subject { id: Some(*thing), kind: desc.kind, info: &desc.info };
-            let pose = self.place(subject, (rank as u32, count), stands, &lifted)?;
-            // Who names a point means that nothing is turned there.
-            let kept = stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
-            let pose =
-                if kept { pose_facing(pose.translation.vector.into(), yaw_of(&desc.pose)) } else { pose };
+            let on_it = load.seen_from(&desc.pose);
+            let pose = self.place(subject, (rank as u32, count), stands, (&lifted, &on_it))?;
+            let what = format!("to move {}", self.label(*thing));
             self.change(&Command::Move { id: *thing, pose })?;
-            lifted.retain(|id| id != thing);
+            self.carry(&load, (&desc.pose, &pose), &lifted, &what)?;
+            self.set_down(&load.leaning, load.ground, &what)?;
+            left.retain(|id| id != thing);
             self.focus.it = Some(*thing);
             self.focus.place = Some(simworld_core::geometry::planar(&pose));
         }
         self.focus.beside = beside(stands);
         Ok(())
-    }
-
-    fn turn(&mut self, thing: EntityId, yaw: f64) -> Result<(), EditError> {
-        let entity = self.entity(thing)?;
-        let solid = Solid::standing(entity.info.shape, entity.position(), yaw);
-        let label = entity.label().to_owned();
-        self.is_clear(&solid, &[thing], &format!("to turn {label}"))?;
-        self.change(&Command::Move { id: thing, pose: solid.pose })?;
-        self.focus.it = Some(thing);
-        Ok(())
-    }
-
-    fn swap(&mut self, one: EntityId, other: EntityId) -> Result<(), EditError> {
-        let (a, b) = (self.entity(one)?.to_desc(), self.entity(other)?.to_desc());
-        let what = "to have the two change places";
-        self.is_clear(&Solid { pose: b.pose, shape: a.info.shape }, &[one, other], what)?;
-        self.is_clear(&Solid { pose: a.pose, shape: b.info.shape }, &[one, other], what)?;
-        self.change(&Command::Move { id: one, pose: b.pose })?;
-        self.change(&Command::Move { id: other, pose: a.pose })?;
-        self.focus.it = Some(one);
-        Ok(())
-    }
-
-    fn scale(&mut self, thing: EntityId, factor: f64) -> Result<(), EditError> {
-        check_factor(factor)?;
-        let mut desc = self.entity(thing)?.to_desc();
-        resize(&mut desc, factor);
-        let what = format!("to make {} so large", self.entity(thing)?.label());
-        self.is_clear(&Solid { pose: desc.pose, shape: desc.info.shape }, &[thing], &what)?;
-        // Mass and access change with the shape, which no alteration does.
-        self.exchange(thing, desc)
     }
 
     fn copy(&mut self, thing: EntityId, count: u32, stands: &[Stand]) -> Result<(), EditError> {
@@ -278,18 +262,18 @@ impl Applier<'_> {
 
     // ---- how it is done ----
 
-    /// Finds a place, or says what was in the way and what would be possible.
+    /// Finds a place, or says what was in the way and what would be possible. What is lifted is as good as gone; the load goes along.
     fn place(
         &mut self,
         subject: Subject<'_>,
         rank: (u32, u32),
         stands: &[Stand],
-        lifted: &[EntityId],
+        (lifted, load): (&[EntityId], &[Solid]),
     ) -> Result<Pose, EditError> {
         let world = self.scene.world();
         let stream = self.stream.indexed(self.placed);
         self.placed += 1;
-        let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted };
+        let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted, load };
         let placing = placer.place(subject, rank, stands, stream);
         let pose = placing.pose();
         let refused = pose.is_none().then(|| {
@@ -310,35 +294,9 @@ impl Applier<'_> {
         }
     }
 
-    /// Whether nothing is where a thing would be.
-    fn is_clear(&self, solid: &Solid, besides: &[EntityId], what: &str) -> Result<(), EditError> {
-        let world = self.scene.world();
-        let mut besides = besides.to_vec();
-        for thing in besides.clone() {
-            world.visit_attached(thing, &mut |load| besides.push(load.id));
-        }
-        match super::place::in_the_way(world, solid, &besides) {
-            None => Ok(()),
-            Some(other) => {
-                let other = world.entity(other).map_or_else(String::new, |entity| entity.label().to_owned());
-                let why = format!("{other} is in the way; move it first");
-                Err(EditError::Impossible { what: what.to_owned(), why })
-            }
-        }
-    }
-
     fn alter(&mut self, thing: EntityId, alteration: Alteration) -> Result<(), EditError> {
         self.entity(thing)?;
         self.change(&Command::Alter { id: thing, alteration })?;
-        self.focus.it = Some(thing);
-        Ok(())
-    }
-
-    /// Puts another in the place of a thing; it keeps the id and what hangs on it.
-    fn exchange(&mut self, thing: EntityId, desc: EntityDesc) -> Result<(), EditError> {
-        let load = self.scene.world().load(thing);
-        self.change(&Command::Remove { id: thing })?;
-        self.change(&Command::Respawn { id: thing, desc: Box::new(desc), load })?;
         self.focus.it = Some(thing);
         Ok(())
     }
@@ -355,7 +313,7 @@ impl Applier<'_> {
     }
 }
 
-fn check_factor(factor: f64) -> Result<(), EditError> {
+pub(super) fn check_factor(factor: f64) -> Result<(), EditError> {
     if FACTORS.contains(&factor) {
         return Ok(());
     }
@@ -371,23 +329,6 @@ pub(crate) fn recipe_of(asset: &Asset, id: AssetId, make: &Make) -> EntityDesc {
     desc.info.name.clone_from(&make.name);
     resize(&mut desc, make.scale);
     desc
-}
-
-/// Larger in all three directions; the mass grows with the volume.
-fn resize(desc: &mut EntityDesc, factor: f64) {
-    desc.info.shape = match desc.info.shape {
-        Shape::Box { size } => Shape::Box { size: size * factor },
-        Shape::Cylinder { radius, height } => {
-            Shape::Cylinder { radius: radius * factor, height: height * factor }
-        }
-        Shape::Capsule { radius, height } => {
-            Shape::Capsule { radius: radius * factor, height: height * factor }
-        }
-        Shape::Sphere { radius } => Shape::Sphere { radius: radius * factor },
-        other => other,
-    };
-    desc.info.mass = desc.info.mass.map(|mass| mass * factor * factor * factor);
-    desc.info.access = desc.info.access.map(|access| access * factor);
 }
 
 /// The one thing that stands are about.

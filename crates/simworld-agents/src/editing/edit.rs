@@ -30,19 +30,19 @@ pub enum Edit {
         /// How far apart, or how many.
         spacing: Spacing,
     },
-    /// Takes things out.
+    /// Takes things out; what stood on them is set down on what is below, and the answer says so.
     Remove {
         /// Which.
         things: Vec<EntityId>,
     },
-    /// Puts things elsewhere.
+    /// Puts things elsewhere, with what stands on them.
     Move {
         /// Which.
         things: Vec<EntityId>,
         /// How they stand afterwards.
         stands: Vec<Stand>,
     },
-    /// Turns things where they stand.
+    /// Turns things where they stand, with what stands on them.
     Rotate {
         /// Which.
         things: Vec<EntityId>,
@@ -56,7 +56,7 @@ pub enum Edit {
         /// Towards what.
         towards: EntityId,
     },
-    /// Has two things change places; each is turned as the other was.
+    /// Has two things change places, with what stands on them; each is turned as the other was.
     Swap {
         /// One.
         one: EntityId,
@@ -70,7 +70,7 @@ pub enum Edit {
         /// Linear-light sRGB primaries in [0, 1].
         color: [f32; 3],
     },
-    /// Makes things larger or smaller, in all three directions.
+    /// Makes things larger or smaller, in all three directions; what stands on them stands on their new tops.
     Scale {
         /// Which.
         things: Vec<EntityId>,

@@ -6,26 +6,31 @@
 //! ([`SceneEditor::last_placings`]).
 //!
 //! What a relation means is a test, [`Stand::holds`]; the solver draws places from its region and throws out what collides,
-//! blocks a door, stands in traffic, or leaves too little of a sidewalk. [`faults`] and [`Difference`] judge the result
+//! blocks a door, stands in traffic, or leaves too little of a sidewalk. So are turns, sizes and swaps that would do so, unless it was so
+//! before. What stands on a thing goes along with it, or is set down where it is gone. [`faults`] and [`Difference`] judge the result
 //! from outside.
 
 mod apply;
+mod carry;
 mod check;
 mod describe;
 mod edit;
 mod editable;
 mod editor;
 mod error;
+mod floor;
 mod history;
 mod land;
 mod made;
 mod place;
 mod reader;
 mod relax;
+mod rest;
 mod row;
 mod sample;
 mod solid;
 mod stand;
+mod stay;
 mod stock;
 mod taken;
 mod workshop;
@@ -42,12 +47,12 @@ pub use editor::SceneEditor;
 pub use error::EditError;
 #[cfg(feature = "thought")]
 pub(crate) use made::nth_made;
-pub(crate) use place::has_flat_top;
 pub use place::{Candidate, Outcome, Placing};
 #[cfg(feature = "scene-files")]
 pub(crate) use place::{is_surface, land_under};
 pub use reader::{Asked, EditReader, ReadBy};
 pub use relax::Relaxed;
+pub(crate) use rest::has_flat_top;
 pub(crate) use stock::Stock;
 #[cfg(feature = "scene-files")]
 pub(crate) use stock::called_in;

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2, Point3, Pose};
+use simworld_core::geometry::{Aabb, Point2, Point3, Pose, yaw_of};
 use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
@@ -13,6 +13,7 @@ use simworld_core::seed::{Stream, StreamRng};
 use super::check::{SUPPORT_GAP, finds_footing};
 use super::edit::Stand;
 use super::land::Streets;
+use super::rest::{carries, foot_of};
 use super::sample::{Item, Sampler, Spot};
 use super::solid::Solid;
 use super::stand::Subject;
@@ -124,8 +125,10 @@ pub(super) struct Placer<'a> {
     pub(super) streets: Option<&'a Streets>,
     /// From where the scene is looked at.
     pub(super) from: Point2,
-    /// Things that are as good as gone: those that are being moved, and what hangs on them.
+    /// Things that are as good as gone: those that are being moved, what stands on them, and what hangs on either.
     pub(super) lifted: &'a [EntityId],
+    /// What goes along on top of the thing that is put somewhere, in that thing's frame.
+    pub(super) load: &'a [Solid],
 }
 
 impl Placer<'_> {
@@ -141,11 +144,15 @@ impl Placer<'_> {
         let item = Item { kind: subject.kind, half: size.xy() * 0.5, rank };
         let sampler = Sampler { scene: self.scene, streets: self.streets, item, from: self.from };
         let exact = stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
+        // Who names a point means that nothing is turned there.
+        let kept = subject.id.and_then(|id| self.scene.entity(id)).filter(|_| exact);
+        let kept = kept.map(|thing| yaw_of(thing.pose));
         let mut rng = stream.rng();
         let mut placing = Placing::default();
         let (mut fitting, mut best) = (0, f64::NEG_INFINITY);
         for attempt in 0..if exact { 1 } else { TRIES } {
             let Some(spot) = self.draw(&sampler, stands, attempt, &mut rng) else { continue };
+            let spot = Spot { yaw: kept.unwrap_or(spot.yaw), ..spot };
             let solid = self.set_down(subject, stands, &spot);
             let outcome = self.judge(subject, stands, &spot, &solid);
             if let Outcome::Fits { score } = outcome {
@@ -164,7 +171,7 @@ impl Placer<'_> {
     }
 
     /// The thing at a spot: at its height, or on land that rises and falls on the highest of what is under its corners.
-    fn set_down(&self, subject: Subject<'_>, stands: &[Stand], spot: &Spot) -> Solid {
+    pub(super) fn set_down(&self, subject: Subject<'_>, stands: &[Stand], spot: &Spot) -> Solid {
         let at = Point3::new(spot.at.x, spot.at.y, spot.base);
         let solid = Solid::standing(subject.info.shape, at, spot.yaw);
         // What stands on a thing, or within it, stands on its boards.
@@ -206,29 +213,11 @@ impl Placer<'_> {
         if has_land || matches!(stand, Stand::To { relation: Relation::OnTopOf, .. }) {
             return spot;
         }
-        let mut below = stand.anchor();
-        while let Some(under) = below.and_then(|thing| self.support_of(thing)) {
-            spot.base = self.scene.entity(under).map_or(spot.base, |under| under.position().z);
-            below = Some(under);
-        }
+        let foot = stand.anchor().map(|anchor| (anchor, foot_of(self.scene, anchor)));
+        let below =
+            foot.filter(|(anchor, foot)| anchor != foot).and_then(|(_, foot)| self.scene.entity(foot));
+        spot.base = below.map_or(spot.base, |below| below.position().z);
         spot
-    }
-
-    /// What a thing stands on, if it is no ground.
-    fn support_of(&self, thing: EntityId) -> Option<EntityId> {
-        let thing = self.scene.entity(thing)?;
-        let solid = Solid::of(&thing);
-        let mut under = None;
-        let _ = self.scene.visit(&thing.bounds.inflated(0.05), &mut |other| {
-            let lies = Solid::of(&other);
-            let holds = !is_surface(other.kind) && other.id != thing.id && lies.base() + 0.05 < solid.base();
-            if holds && (lies.top() - solid.base()).abs() <= 0.05 && lies.gap(&solid) == 0.0 {
-                under = Some(other.id);
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        });
-        under
     }
 
     pub(super) fn judge(
@@ -257,11 +246,10 @@ impl Placer<'_> {
         // Who comes out of a new building finds room before its door.
         let door =
             subject.info.access.filter(|_| subject.kind == EntityKind::Building && subject.id.is_none());
-        let step = door.map(|door| {
-            let size = 2.0 * DOORWAY;
-            Solid::standing(Shape::cuboid(size, size, size), solid.pose * door, solid.yaw())
-        });
-        if let Some(with) = step.and_then(|step| in_the_way(self.scene, &step, self.lifted)) {
+        let step = door.map(|door| doorway(solid, door));
+        let on_it = self.load.iter().map(|part| Solid { pose: solid.pose * part.pose, shape: part.shape });
+        let mut others = step.into_iter().chain(on_it);
+        if let Some(with) = others.find_map(|other| in_the_way(self.scene, &other, self.lifted)) {
             return Outcome::Collides { with };
         }
         // Who names a point, or a thing to stand on, means it.
@@ -281,22 +269,34 @@ impl Placer<'_> {
     /// What is in the way, or whose door.
     fn obstacle(&self, solid: &Solid, on_top: bool) -> Option<Outcome> {
         let room = if on_top { *solid } else { solid.inflated(HAND) };
-        let bounds = room.bounds().inflated(DOORWAY);
-        let region = Aabb { min: Point3::new(bounds.min.x, bounds.min.y, room.base()), ..bounds };
         if let Some(with) = in_the_way(self.scene, &room, self.lifted) {
             return Some(Outcome::Collides { with });
         }
-        let mut blocked = None;
-        let _ = self.scene.visit(&region, &mut |other| {
-            let access = other.access_point().filter(|_| other.kind == EntityKind::Building && !on_top);
-            if access.is_some_and(|door| solid.distance_to(door.xy()) < DOORWAY) {
-                blocked = Some(Outcome::Blocks { door: other.id });
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        });
-        blocked
+        let doors = if on_top { Vec::new() } else { doors_before(self.scene, solid, self.lifted) };
+        doors.first().map(|door| Outcome::Blocks { door: *door })
     }
+}
+
+/// The room before a door, of a thing that stands there with its door so in its own frame.
+pub(super) fn doorway(solid: &Solid, door: Point3) -> Solid {
+    let size = 2.0 * DOORWAY;
+    Solid::standing(Shape::cuboid(size, size, size), solid.pose * door, solid.yaw())
+}
+
+/// The buildings before whose doors a solid would stand.
+pub(super) fn doors_before(scene: &dyn Scene, solid: &Solid, besides: &[EntityId]) -> Vec<EntityId> {
+    let bounds = solid.inflated(HAND).bounds().inflated(DOORWAY);
+    let region = Aabb { min: Point3::new(bounds.min.x, bounds.min.y, solid.base()), ..bounds };
+    let mut blocked = Vec::new();
+    let _ = scene.visit(&region, &mut |other| {
+        let counts = other.kind == EntityKind::Building && !besides.contains(&other.id);
+        let access = other.access_point().filter(|_| counts);
+        if access.is_some_and(|door| solid.distance_to(door.xy()) < DOORWAY) {
+            blocked.push(other.id);
+        }
+        ControlFlow::Continue(())
+    });
+    blocked
 }
 
 /// The first thing that shares space with a solid, flat ground apart.
@@ -318,37 +318,11 @@ pub(crate) const fn is_surface(kind: EntityKind) -> bool {
     matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
 }
 
-/// Whether things can stand on top of it.
-pub(crate) const fn has_flat_top(kind: EntityKind) -> bool {
-    !matches!(
-        kind,
-        EntityKind::Tree
-            | EntityKind::Shrub
-            | EntityKind::StreetLamp
-            | EntityKind::TrafficSignal
-            | EntityKind::Sign
-            | EntityKind::Hydrant
-            | EntityKind::Cone
-            | EntityKind::Motorcycle
-            | EntityKind::Bicycle
-            | EntityKind::Scooter
-            | EntityKind::Person
-            | EntityKind::Dog
-            | EntityKind::Door
-    )
-}
-
-/// Whether a thing that stands there rests on another with its whole footprint.
-fn carries(anchor: &simworld_core::scene::EntityRef<'_>, solid: &Solid) -> bool {
-    let below = Solid::of(anchor);
-    has_flat_top(anchor.kind) && solid.corners().into_iter().all(|corner| below.distance_to(corner) <= 1e-6)
-}
-
 /// Nothing is set down where it is steeper, rise over run: dry wood on grass slides from 0.35 on.
 const STANDS_ON: f64 = 0.35;
 
 /// The least and the greatest height of the land that a thing stands on, m.
-fn under(land: &Ground, kind: EntityKind, solid: &Solid) -> (f64, f64) {
+pub(super) fn under(land: &Ground, kind: EntityKind, solid: &Solid) -> (f64, f64) {
     let middle = land.height(solid.planar());
     if finds_footing(kind) {
         return (middle, middle);
@@ -365,7 +339,7 @@ pub(crate) fn land_under(land: &Ground, kind: EntityKind, shape: Shape, at: Poin
 }
 
 /// Whether the land carries a thing: dry, not too steep, and under all of it.
-fn land_carries(
+pub(super) fn land_carries(
     scene: &dyn Scene,
     kind: EntityKind,
     solid: &Solid,
@@ -420,7 +394,7 @@ mod tests {
     }
 
     fn placed(world: &World, desc: &EntityDesc, stand: Stand) -> Placing {
-        let placer = Placer { scene: world, streets: None, from: Point2::origin(), lifted: &[] };
+        let placer = Placer { scene: world, streets: None, from: Point2::origin(), lifted: &[], load: &[] };
         let subject = Subject { id: None, kind: desc.kind, info: &desc.info };
         placer.place(subject, (0, 1), &[stand], Seed(1).stream("tests/place"))
     }

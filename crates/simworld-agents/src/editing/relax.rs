@@ -132,7 +132,7 @@ impl Search<'_> {
     /// A place in no relation: around what was named, around the viewpoint, and farther off. What was to be far from something is far
     /// from it there too.
     fn elsewhere(&self, stands: &[Stand]) -> Option<Point2> {
-        let Placer { scene, streets, from, lifted } = *self.placer;
+        let Placer { scene, streets, from, lifted, load } = *self.placer;
         let middle = stands.iter().find_map(|stand| middle_of(stand, self.placer)).unwrap_or(from);
         let ring = |reach: f64| {
             (0..WAYS).map(move |way| middle + direction(f64::from(way) * 2.0 * PI / f64::from(WAYS)) * reach)
@@ -145,7 +145,7 @@ impl Search<'_> {
         };
         let around = [middle, from].into_iter().chain(AROUND.into_iter().flat_map(ring));
         around.enumerate().find_map(|(rank, from)| {
-            let placer = Placer { scene, streets, from, lifted };
+            let placer = Placer { scene, streets, from, lifted, load };
             let placing = placer.place(self.subject, (0, 1), &[], self.stream.indexed(200 + rank as u64));
             placing.candidates.iter().find(fits).map(|found| planar(&found.pose))
         })
@@ -307,7 +307,8 @@ mod tests {
 
     fn all_near(stand: Stand) -> Vec<Vec<Stand>> {
         let (world, streets, _) = crossroads();
-        let placer = Placer { scene: &world, streets: Some(&streets), from: Point2::origin(), lifted: &[] };
+        let placer =
+            Placer { scene: &world, streets: Some(&streets), from: Point2::origin(), lifted: &[], load: &[] };
         near_all(&[stand], &placer)
     }
 
@@ -353,7 +354,8 @@ mod tests {
     #[test]
     fn what_keeps_off_a_thing_goes_on_to_where_another_is_given_up() {
         let (world, streets, anchor) = crossroads();
-        let placer = Placer { scene: &world, streets: Some(&streets), from: Point2::origin(), lifted: &[] };
+        let placer =
+            Placer { scene: &world, streets: Some(&streets), from: Point2::origin(), lifted: &[], load: &[] };
         let far = Stand::To { relation: Relation::FarFrom, anchor };
         let point = Point2::new(90.0, 40.0);
         let sets = near_all(&[Stand::At { point }, far.clone()], &placer);
@@ -375,7 +377,8 @@ mod tests {
     #[test]
     fn a_long_way_along_a_street_that_is_full_leads_somewhere_else() {
         let (world, streets, anchor) = crossroads();
-        let placer = Placer { scene: &world, streets: Some(&streets), from: Point2::origin(), lifted: &[] };
+        let placer =
+            Placer { scene: &world, streets: Some(&streets), from: Point2::origin(), lifted: &[], load: &[] };
         let bench = world.entity(anchor).unwrap();
         let subject = Subject { id: None, kind: bench.kind, info: bench.info };
         let search =

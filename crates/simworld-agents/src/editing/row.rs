@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use simworld_core::geometry::{Point2, Point3, Pose, direction, heading, planar};
+use simworld_core::geometry::{Point2, Pose, direction, heading, planar};
 use simworld_core::id::RoadId;
 use simworld_core::net::polyline;
 use simworld_core::scene::EntityDesc;
@@ -10,6 +10,7 @@ use simworld_core::scene::EntityDesc;
 use super::apply::Applier;
 use super::edit::{Line, Make, Sides, Spacing, Stand};
 use super::error::EditError;
+use super::floor::Floors;
 use super::land::Streets;
 use super::place::{Candidate, Outcome, Placer, Placing};
 use super::relax::Relaxed;
@@ -70,13 +71,14 @@ impl Applier<'_> {
         let half = desc.info.shape.size().xy() * 0.5;
         let item = Item { kind: desc.kind, half, rank: (0, 1) };
         let sampler = Sampler { scene: world, streets: self.streets, item, from: self.focus.from };
-        let stands = stands_of(line);
-        let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted: &[] };
+        let wanted = Wanted { desc, stands: stands_of(line), floors: Floors::of(world, line) };
+        let placer =
+            Placer { scene: world, streets: self.streets, from: self.focus.from, lifted: &[], load: &[] };
         let tracks = tracks(&sampler, line).ok_or_else(|| missing(line))?;
         let mut rows = Vec::new();
         for track in &tracks {
             let stations = stations(track, spacing, half.x.max(half.y) * 2.0)?;
-            rows.push(Row::on(track, &stations, spacing, desc, &stands, &placer, Ends::WithTheLine));
+            rows.push(Row::on(track, &stations, spacing, &wanted, &placer, Ends::WithTheLine));
         }
         let enough = |row: &Row| match spacing {
             Spacing::Count(_) => row.left_out == 0,
@@ -96,13 +98,13 @@ impl Applier<'_> {
             return Ok(vec![rows.swap_remove(best)]);
         }
         let asked = rows.get(best).map_or(0, |row| row.poses.len() + row.left_out);
-        let instead = match fewer(&tracks, asked, desc, &stands, &placer) {
+        let instead = match fewer(&tracks, asked, &wanted, &placer) {
             Relaxed::Nothing => rows.get(best).map_or(Relaxed::Nothing, Row::free),
             found => found,
         };
         let tried = rows.into_iter().nth(best).map(|row| row.tried).unwrap_or_default();
         let what = format!("a row of {}", desc.info.name.clone().unwrap_or_else(|| make_name(desc)));
-        let place = stands.first().map_or_else(String::new, |stand| stand.told(world));
+        let place = wanted.stands.first().map_or_else(String::new, |stand| stand.told(world));
         let why = tried.reasons(world);
         let relaxed = instead.told(world);
         self.tried.push(tried);
@@ -139,14 +141,8 @@ fn stands_of(line: &Line) -> Vec<Stand> {
 
 /// The largest number below another that do fit evenly, all of them, on one of the tracks. A row of fewer may be refused where one
 /// of more fits, so that it is looked for from above; of many not every number is tried at first.
-fn fewer(
-    tracks: &[Track<'_>],
-    below: usize,
-    desc: &EntityDesc,
-    stands: &[Stand],
-    placer: &Placer<'_>,
-) -> Relaxed {
-    let size = desc.info.shape.size().xy();
+fn fewer(tracks: &[Track<'_>], below: usize, wanted: &Wanted<'_>, placer: &Placer<'_>) -> Relaxed {
+    let size = wanted.desc.info.shape.size().xy();
     // More than these stand in each other's way, one behind the other too.
     let most = |track: &Track<'_>| (track.length / (size.min() + HAND) + 1.0) * track.offs.len() as f64;
     let room = tracks.iter().map(most).fold(0.0, f64::max) as u32;
@@ -154,7 +150,7 @@ fn fewer(
         tracks.iter().find_map(|track| {
             let spacing = Spacing::Count(count);
             let stations = stations(track, spacing, size.max()).ok()?;
-            let row = Row::on(track, &stations, spacing, desc, stands, placer, Ends::AtTheFirstGap);
+            let row = Row::on(track, &stations, spacing, wanted, placer, Ends::AtTheFirstGap);
             let spacing = track.length / f64::from(count);
             (row.left_out == 0).then_some(Relaxed::Fewer { count, spacing })
         })
@@ -168,6 +164,13 @@ fn fewer(
         count -= (1 + count / 24).min(count);
     }
     Relaxed::Nothing
+}
+
+/// What a row is made of, and how each of it is to stand.
+struct Wanted<'a> {
+    desc: &'a EntityDesc,
+    stands: Vec<Stand>,
+    floors: Floors,
 }
 
 /// How long a row is looked for.
@@ -197,11 +200,11 @@ impl Row {
         track: &Track<'_>,
         stations: &[f64],
         spacing: Spacing,
-        desc: &EntityDesc,
-        stands: &[Stand],
+        wanted: &Wanted<'_>,
         placer: &Placer<'_>,
         ends: Ends,
     ) -> Self {
+        let Wanted { desc, stands, floors } = wanted;
         let step = match (spacing, stations) {
             (Spacing::Every(step), _) => step,
             (Spacing::Count(_), [first, second, ..]) => second - first,
@@ -218,9 +221,7 @@ impl Row {
             'places: for (rank, off) in offs.iter().enumerate() {
                 for slide in slides {
                     let Some(spot) = (track.spot)(station + slide * step, *off) else { continue };
-                    let at = Point3::new(spot.at.x, spot.at.y, spot.base);
-                    let solid = Solid::standing(desc.info.shape, at, spot.yaw);
-                    let mut outcome = placer.judge(subject, stands, &spot, &solid);
+                    let (solid, mut outcome) = floors.judge(placer, subject, stands, &spot);
                     if solids.iter().any(|other| other.overlaps(&solid.inflated(HAND))) {
                         outcome = Outcome::Elsewhere;
                     }

@@ -11,6 +11,7 @@ use simworld_core::seed::StreamRng;
 
 use super::edit::Stand;
 use super::land::Streets;
+use super::rest::foot_of;
 use super::solid::Solid;
 use super::stand::{AIM, ALONG, EDGE, FAR_SIDE, JUNCTION, NEAR, OPPOSITE};
 
@@ -407,6 +408,7 @@ impl Sampler<'_> {
             return height;
         }
         let grounded = |entity: &simworld_core::scene::EntityRef<'_>| entity.attachment.is_none();
-        self.scene.nearest(at, 100.0, &grounded).map_or(0.0, |entity| entity.position().z)
+        let near = self.scene.nearest(at, 100.0, &grounded).map(|entity| foot_of(self.scene, entity.id));
+        near.and_then(|foot| self.scene.entity(foot)).map_or(0.0, |foot| foot.position().z)
     }
 }

@@ -93,6 +93,23 @@ impl Solid {
             && self.obb().footprints_overlap(&other.obb())
     }
 
+    /// Whether it is above or below another, at whatever height: in the plane the two share more than an edge.
+    pub(super) fn is_over(&self, other: &Self) -> bool {
+        self.obb().footprints_overlap(&other.obb())
+    }
+
+    /// Where it goes on a thing that is put from one pose to another.
+    pub(super) fn carried(&self, from: &Pose, to: &Pose) -> Self {
+        Self { pose: *to * from.inverse() * self.pose, shape: self.shape }
+    }
+
+    /// The same so much higher, m.
+    pub(super) fn raised(&self, by: f64) -> Self {
+        let mut pose = self.pose;
+        pose.translation.z += by;
+        Self { pose, shape: self.shape }
+    }
+
     /// The same with so much room on every side, m.
     pub(super) fn inflated(&self, room: f64) -> Self {
         let size = self.shape.size();
@@ -117,6 +134,19 @@ mod tests {
         let turned = house(0.0, 12.0, std::f64::consts::FRAC_PI_4);
         let corner = 12.0 - 8.0 / 2f64.sqrt();
         assert!((house(0.0, 0.0, 0.0).gap(&turned) - (corner - 3.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_carried_keeps_its_place_on_what_carries_it() {
+        use std::f64::consts::FRAC_PI_2;
+        let from = pose_facing(Point3::new(5.0, 5.0, 0.0), 0.0);
+        let to = pose_facing(Point3::new(20.0, 5.0, 1.0), FRAC_PI_2);
+        let cup = Solid::standing(Shape::cuboid(0.1, 0.1, 0.1), Point3::new(6.0, 5.0, 0.8), 0.0);
+        let there = cup.carried(&from, &to);
+        // A metre ahead of the middle, which now is north of it.
+        assert!((there.pose.translation.vector - Point3::new(20.0, 6.0, 1.8).coords).norm() < 1e-9);
+        assert!((there.yaw() - FRAC_PI_2).abs() < 1e-9);
+        assert!((cup.raised(-0.3).base() - 0.5).abs() < 1e-12);
     }
 
     #[test]

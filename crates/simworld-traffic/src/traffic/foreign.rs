@@ -13,6 +13,9 @@ const CELL: f64 = 8.0;
 const TILE: i64 = 32;
 /// Half the width that the broadest vehicle sweeps, with a margin, m.
 const SWEPT: f64 = 1.45;
+/// Half the width over which every vehicle drives in the middle of a track, m. Nothing of a street stands so near: readers of maps keep
+/// 0.8 m free on either side.
+const CORE: f64 = 0.75;
 /// Who reaches no farther than this to all sides walks, or rides something small: drivers stop before the strip for them, m.
 const PERSON: f64 = 1.5;
 /// Who is slower than this stands, m/s.
@@ -176,10 +179,31 @@ impl Finder {
 
     /// Whether a body reaches into what the broadest vehicle sweeps.
     pub(super) fn is_in_the_way(&self, tracks: &Tracks, body: &Foreign) -> bool {
+        self.reaches_into(tracks, body, |_| Some(SWEPT))
+    }
+
+    /// Whether a body reaches into the middle of a track, over which everybody drives, and no farther than its lane is wide. What a street
+    /// is built with stands beyond its lanes, or below a bridge and above a tunnel, which do not count; what the broadest vehicle sweeps
+    /// reaches over the kerb of narrow lanes.
+    pub(super) fn is_on_a_track(&self, tracks: &Tracks, body: &Foreign) -> bool {
+        let (lanes, roads) = (&tracks.network.lanes, &tracks.network.roads);
+        let is_on_ground = |lane: u32| roads[lanes[lane as usize].road.index()].level == 0;
+        self.reaches_into(tracks, body, |track| {
+            let ends = match tracks.connection(track) {
+                Some(way) => [tracks.ways[way].from, tracks.ways[way].to],
+                None => [track; 2],
+            };
+            let half = (lanes[ends[0] as usize].width * 0.5).min(CORE);
+            ends.into_iter().all(is_on_ground).then_some(half)
+        })
+    }
+
+    /// Whether a body comes nearer to the path of a track than the half width that is meant of it, where one is.
+    fn reaches_into(&self, tracks: &Tracks, body: &Foreign, half: impl Fn(u32) -> Option<f64>) -> bool {
         body.discs().chain(body.corners()).any(|(at, reach)| {
             self.tracks_at(at).any(|track| {
                 let near = polyline::closest(tracks.path(track), &at);
-                near.is_some_and(|near| near.distance < SWEPT + reach)
+                near.zip(half(track)).is_some_and(|(near, half)| near.distance < half + reach)
             })
         })
     }
