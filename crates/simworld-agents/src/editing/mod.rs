@@ -6,10 +6,12 @@
 //! ([`SceneEditor::last_placings`]).
 //!
 //! What a relation means is a test, [`Stand::holds`]; the solver draws places from its region and throws out what collides,
-//! blocks a door, stands in traffic, or leaves too little of a sidewalk. [`faults`] and [`Difference`] judge the result
-//! from outside.
+//! blocks a door, stands in traffic, or leaves too little of a sidewalk. Of what is left it takes the best ground ([`LandFit`]): vehicles
+//! on parking strips and at kerbs, trees on soil; what stands elsewhere for want of it is told ([`Astray`]). [`faults`] and
+//! [`Difference`] judge the result from outside.
 
 mod apply;
+mod astray;
 mod check;
 mod describe;
 mod edit;
@@ -18,7 +20,9 @@ mod editor;
 mod error;
 mod history;
 mod land;
+mod parking;
 mod place;
+mod placing;
 mod reader;
 mod relax;
 mod row;
@@ -26,17 +30,21 @@ mod sample;
 mod solid;
 mod stand;
 mod stock;
+mod suits;
+mod surfaces;
 mod taken;
 mod workshop;
 
 pub use apply::Edited;
+pub use astray::Astray;
 pub use check::{Difference, Fault, faults};
 pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;
 pub use error::EditError;
+pub use land::{Land, LandFit};
 pub(crate) use place::has_flat_top;
-pub use place::{Candidate, Outcome, Placing};
+pub use placing::{Candidate, Outcome, Placing};
 pub use reader::{Asked, EditReader, ReadBy};
 pub use relax::Relaxed;
 pub(crate) use stock::Stock;
