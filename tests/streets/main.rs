@@ -3,6 +3,7 @@
 
 mod cities_go_through_sumo;
 mod drivers_drive;
+mod edits_keep_to_the_land;
 mod edits_take_effect;
 mod town;
 mod traffic_is_safe;

@@ -11,6 +11,7 @@ mod edits_are_taken_back;
 mod edits_are_told_along;
 mod edits_by_policy;
 mod edits_common;
+mod edits_keep_land_use;
 #[path = "../shared/model_server/mod.rs"]
 mod model_server;
 mod models_edit_scenes;
