@@ -15,6 +15,8 @@ use super::solid::Solid;
 const KERB_GAP: f64 = 0.15;
 /// What stands no farther from a kerb is parked at it, m: a third of a metre is usual, and the rest is for slips.
 const AT_KERB: f64 = 0.5;
+/// What has room on a strip stands out of it by no more than this, m: more than what is left between it and the kerb.
+const SLIP: f64 = 0.2;
 /// What is parked is turned by no more than this from its lane, radians.
 const ALONG_LANE: f64 = 0.2;
 
@@ -71,10 +73,11 @@ impl Streets {
                     && (offset - strip.offset).abs() <= strip.width * 0.5
                     && (strip.stations.0..=strip.stations.1).contains(&station)
             };
-            if road.strips.iter().any(is_on) {
+            if let Some(strip) = road.strips.iter().find(|strip| is_on(strip)) {
                 // Either way round is parked.
                 let (aside, _) = sin_cos(solid.yaw() - along);
-                return (aside.abs() <= ALONG_LANE).then_some(Land::Parking);
+                let is_parked = is_on_strip(road, strip, solid, aside.abs() <= ALONG_LANE);
+                return is_parked.then_some(Land::Parking);
             }
             let left = offset >= middle(road);
             let turned = wrap_angle(solid.yaw() - along - self.turn_of(road, left)?);
@@ -117,6 +120,23 @@ fn middle(road: &Road) -> f64 {
 /// How far the carriageway reaches to a side of the centreline, m.
 fn kerb(road: &Road, left: bool) -> f64 {
     if left { road.left_kerb } else { road.right_kerb }
+}
+
+/// Whether a thing with its middle on a strip is parked there. What has room on it is on it; what is wider stands along it, at its
+/// outer edge, and out into the lane.
+fn is_on_strip(road: &Road, strip: &Strip, solid: &Solid, is_along: bool) -> bool {
+    let side = if strip.offset >= middle(road) { 1.0 } else { -1.0 };
+    let outward = |corner| offset_along(&road.centerline, corner).map_or(f64::INFINITY, |off| off * side);
+    let offsets = solid.corners().map(outward);
+    let most = offsets.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let least = offsets.into_iter().fold(f64::INFINITY, f64::min);
+    let (own, edge) = (strip.offset * side, strip.width * 0.5);
+    let room = own + edge - most;
+    if most - least <= strip.width {
+        room >= 0.0 && least >= own - edge - SLIP
+    } else {
+        is_along && (0.0..=AT_KERB).contains(&room)
+    }
 }
 
 /// Between a kerb and the corner of a thing that is nearest to it, m; below zero where it stands beyond.
@@ -191,6 +211,10 @@ mod tests {
             assert_eq!(parked(&streets, &car(60.0, -4.45, yaw)), Some(Land::Parking));
         }
         assert_eq!(parked(&streets, &car(60.0, -4.45, FRAC_PI_2)), None, "across it");
+        assert_eq!(parked(&streets, &car(60.0, -3.9, 0.0)), None, "half in the lane");
+        let lorry = |y| Solid::standing(Shape::cuboid(8.5, 2.5, 3.4), Point3::new(60.0, y, 0.0), 0.0);
+        assert_eq!(parked(&streets, &lorry(-4.1)), Some(Land::Parking));
+        assert_eq!(parked(&streets, &lorry(-3.6)), None, "too far from the kerb");
         let (at, _) = streets.parking_at(RoadId::from_index(0), 60.0, false, 1.25).unwrap();
         assert!((at.y + 4.1).abs() < 1e-9, "the outer side is 15 cm from the kerb: {at}");
     }
