@@ -300,6 +300,9 @@ impl Desk<'_> {
             println!("  nothing was put anywhere yet");
             return Ok(());
         };
+        if let Some(explained) = placing.explained() {
+            println!("  {explained}");
+        }
         let fitting = placing.alternatives().len() + usize::from(placing.taken.is_some());
         println!(
             "  {} places were tried, {fitting} would do; against the others: {}",

@@ -5,6 +5,7 @@
 mod a_running_city_is_edited_by_words;
 mod cities_go_through_sumo;
 mod drivers_drive;
+mod edits_keep_to_the_land;
 mod edits_take_effect;
 mod scenes_by_hand;
 mod town;

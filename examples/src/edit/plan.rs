@@ -1,7 +1,7 @@
 //! A plan of a part of a world as an SVG picture: streets, footprints, what an edit touched, and the places that the solver
 //! tried.
 
-use simworld_agents::editing::{Outcome, Placing};
+use simworld_agents::editing::Placing;
 use simworld_core::geometry::{Aabb, Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::net::RoadNetwork;
@@ -17,8 +17,10 @@ const PATH: &str = "#8a4b1f";
 const INK: &str = "#33352f";
 /// What is new, moved or altered.
 const TOUCHED: &str = "#b3261e";
-/// Places that fit, and places that do not; blue and orange are told apart by everybody.
+/// Places that fit, those of them whose ground is for something else, and places that do not fit; blue and orange are told apart by
+/// everybody.
 const FITS: &str = "#2166ac";
+const ASTRAY: &str = "#92c5de";
 const REFUSED: &str = "#e08214";
 
 /// What is drawn, and how large.
@@ -114,7 +116,7 @@ impl Plan<'_> {
         things.sort_by(|a, b| a.0.total_cmp(&b.0));
         let things = things.into_iter().map(|(_, thing)| thing);
         ground = areas.into_iter().chain(things).fold(ground, Group::add);
-        self.placings.iter().fold(ground, |ground, placing| ground.add(self.tried(placing, unit)))
+        self.placings.iter().fold(ground, |ground, placing| ground.add(self.tried(placing, world, unit)))
     }
 
     fn at(&self, point: Point2) -> (f64, f64) {
@@ -269,16 +271,17 @@ impl Plan<'_> {
         )
     }
 
-    fn tried(&self, placing: &Placing, unit: f64) -> Group {
+    /// The places that were tried, each with what became of it.
+    fn tried(&self, placing: &Placing, world: &World, unit: f64) -> Group {
         let mut group = Group::new();
         for candidate in &placing.candidates {
             let (x, y) = self.at(planar(&candidate.pose));
-            let fits = matches!(candidate.outcome, Outcome::Fits { .. });
-            let dot = Circle::new().set("cx", x).set("cy", y).set("r", if fits { 4.0 } else { 2.6 } * unit);
+            let fit = candidate.fit();
+            let dot = Circle::new().set("cx", x).set("cy", y);
+            let dot = dot.set("r", if fit.is_some() { 4.0 } else { 2.6 } * unit);
+            let fill = fit.map_or(REFUSED, |fit| if fit.astray { ASTRAY } else { FITS });
             group = group.add(
-                dot.set("fill", if fits { FITS } else { REFUSED })
-                    .set("opacity", 0.75)
-                    .add(Title::new(format!("{:?}", candidate.outcome))),
+                dot.set("fill", fill).set("opacity", 0.75).add(Title::new(candidate.outcome.told(world))),
             );
         }
         group

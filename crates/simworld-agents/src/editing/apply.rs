@@ -13,6 +13,7 @@ use simworld_core::scene::{EntityDesc, EntityRef, Relation, Scene};
 use simworld_core::seed::Stream;
 
 use super::Placing;
+use super::astray::Astray;
 use super::carry::Load;
 use super::describe::{describe, listed};
 use super::edit::{Edit, Make, Stand};
@@ -50,6 +51,8 @@ pub struct Edited {
     /// What was taken where several things fit, under a policy that does not ask
     /// ([`SceneEditor::with_policy`](super::SceneEditor::with_policy)).
     pub taken: Vec<Taken>,
+    /// What stands on ground that is for something else, for nothing better was found where it was asked for; the answer says so.
+    pub astray: Vec<Astray>,
 }
 
 /// What an editor keeps of a sentence.
@@ -276,16 +279,23 @@ impl Applier<'_> {
         let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted, load };
         let placing = placer.place(subject, rank, stands, stream);
         let pose = placing.pose();
+        let what = || subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " "));
+        let place = || stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and ");
         let refused = pose.is_none().then(|| {
             let instead = relaxed(&placer, subject, stands, stream);
             EditError::NoRoom {
-                what: subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " ")),
-                place: stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and "),
+                what: what(),
+                place: place(),
                 why: placing.reasons(world),
                 relaxed: instead.told(world),
                 instead: Box::new(instead),
             }
         });
+        let astray = placing.fit().filter(|fit| fit.astray);
+        let astray = astray.map(|fit| Astray { what: what(), land: fit.land, place: place(), count: 1 });
+        if let Some(astray) = astray {
+            astray.add_to(&mut self.edited.astray);
+        }
         self.tried.push(placing);
         match (pose, refused) {
             (Some(pose), _) => Ok(pose),

@@ -9,13 +9,15 @@ use simworld_core::scene::Scene;
 use simworld_core::seed::Seed;
 
 use super::apply::{Applier, Edited, Memory};
+use super::astray::Astray;
 use super::edit::Edit;
 use super::editable::{Editable, change_all};
 use super::error::EditError;
 use super::history::History;
 use super::land::Streets;
-use super::place::Placing;
+use super::placing::Placing;
 use super::reader::{Asked, EditReader, ReadBy, Shared, is_open};
+use super::row::tell;
 use super::stock::Stock;
 use super::taken::Taken;
 use super::workshop::Workshop;
@@ -223,8 +225,8 @@ impl SceneEditor {
             self.stock = stock;
             return Err(error.noting(&notes));
         }
-        let taken = edited.taken.iter().map(Taken::told);
-        let said: Vec<String> = edited.answer.take().into_iter().chain(taken).chain(notes).collect();
+        let told = edited.taken.iter().map(Taken::told).chain(edited.astray.iter().map(Astray::told));
+        let said: Vec<String> = edited.answer.take().into_iter().chain(told).chain(notes).collect();
         edited.answer = (!said.is_empty()).then(|| said.join("; "));
         self.history.push(words.to_owned(), back);
         Ok(edited)
@@ -262,9 +264,12 @@ impl SceneEditor {
             applier.edited.edits.push(edit);
             Ok(())
         });
-        let (edited, back, memory) = applier.finish(outcome.is_ok());
+        let (mut edited, back, memory) = applier.finish(outcome.is_ok());
         self.remember(memory);
         outcome?;
+        for astray in &edited.astray {
+            tell(&mut edited.answer, &astray.told());
+        }
         self.history.push(what, back);
         Ok(edited)
     }

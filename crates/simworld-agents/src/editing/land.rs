@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use simworld_core::geometry::{Point2, direction};
 use simworld_core::id::RoadId;
-use simworld_core::net::{LaneKind, Road, RoadNetwork, polyline};
-use simworld_core::scene::EntityKind;
+use simworld_core::net::{LaneKind, Road, RoadNetwork, Strip, polyline};
 
 use super::solid::Solid;
 
@@ -15,20 +14,93 @@ const CELL: f64 = 64.0;
 const WALKING_WIDTH: f64 = 1.5;
 /// Nothing stands so near before a crossing, m.
 const CROSSING_ROOM: f64 = 2.0;
+/// Stations that differ by less are the same, m.
+const HAIR: f64 = 1e-6;
 
 /// What the ground is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Land {
-    /// Lots, lawns, squares: everything that is no street.
-    Open,
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Land {
+    /// The point, the thing or the piece of ground that was named: whoever names it means it.
+    Asked,
+    /// Ground of which nothing is known.
+    Unknown,
+    /// Beside a street and no part of it: lots, yards, front gardens.
+    Lot,
+    /// Parks, lawns, meadows, woods and fields.
+    Green,
+    /// Grass or trees between a kerb and a sidewalk.
+    Verge,
+    /// Sand or rock.
+    Bare,
+    /// Squares, and whatever else is paved and no street.
+    Paving,
+    /// A trodden path.
+    Path,
+    /// A piece of ground for parked vehicles.
+    ParkingLot,
+    /// A strip of a street for parked vehicles.
+    Parking,
+    /// At the kerb of a carriageway, along its outermost lane.
+    Kerbside,
     /// For traffic.
     Carriageway,
-    /// A strip for parked vehicles.
-    Parking,
+    /// For bicycles.
+    CycleLane,
+    /// A road of which no lanes are known.
+    Road,
     /// Where streets meet, and crossings.
     Junction,
     /// For walkers.
     Sidewalk,
+    /// Rivers, lakes, harbours and the sea.
+    Water,
+}
+
+impl Land {
+    /// Where a thing stands that stands there, in words: "on a lawn or other soil".
+    pub const fn told(self) -> &'static str {
+        match self {
+            Self::Asked => "where it was asked for",
+            Self::Unknown => "on open ground",
+            Self::Lot => "on open ground beside a street",
+            Self::Green => "on a lawn or other soil",
+            Self::Verge => "on the verge of a street",
+            Self::Bare => "on sand or rock",
+            Self::Paving => "on paving",
+            Self::Path => "on a path",
+            Self::ParkingLot => "on a parking lot",
+            Self::Parking => "on a parking strip",
+            Self::Kerbside => "beside the kerb of a street",
+            Self::Carriageway => "in a lane",
+            Self::CycleLane => "in a cycle lane",
+            Self::Road => "on a road",
+            Self::Junction => "where streets meet or walkers cross",
+            Self::Sidewalk => "on a sidewalk",
+            Self::Water => "in the water",
+        }
+    }
+
+    /// Whether vehicles move or park there, as a part of a street.
+    pub(super) const fn is_street(self) -> bool {
+        matches!(self, Self::Parking | Self::Kerbside | Self::Carriageway | Self::CycleLane | Self::Road)
+    }
+}
+
+/// How well the ground suits a thing that stands there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LandFit {
+    /// What the ground is for; of a thing that stands on several pieces, that which suits it least.
+    pub land: Land,
+    /// From 0 to 1, which is ground that is for such things.
+    pub suits: f64,
+    /// Whether the ground is for something else, so that it is taken only where nothing better is found.
+    pub astray: bool,
+}
+
+impl LandFit {
+    /// Of what stands exactly where the words say.
+    pub(super) const ASKED: Self = Self { land: Land::Asked, suits: 1.0, astray: false };
 }
 
 /// The streets of a scene, by place.
@@ -96,7 +168,8 @@ impl Streets {
         &self.network
     }
 
-    fn at_of(&self, point: Point2, roads: &[RoadId]) -> Land {
+    /// What a point is for, by the streets near it: [`Land::Lot`] where it is part of none.
+    pub(super) fn at_of(&self, point: Point2, roads: &[RoadId]) -> Land {
         if around(&self.places, point).any(|place| {
             let place = &self.network.intersections[place as usize];
             contains(&place.outline, point)
@@ -104,15 +177,18 @@ impl Streets {
         }) {
             return Land::Junction;
         }
-        let mut land = Land::Open;
+        let mut land = Land::Lot;
         for id in roads {
             let road = self.road(*id);
             let Some(offset) = offset_along(&road.centerline, point) else { continue };
+            let is_verge = || strip_at(road, point, offset) == Some(LaneKind::Verge);
             if (-road.right_kerb..=road.left_kerb).contains(&offset) {
                 return self.of_carriageway(*id, point, offset);
             }
-            if let Some(walk) = self.walk_at(*id, point) {
-                land = walk;
+            if self.is_on_walk(*id, point) {
+                land = Land::Sidewalk;
+            } else if land == Land::Lot && is_verge() {
+                land = Land::Verge;
             }
         }
         land
@@ -131,72 +207,49 @@ impl Streets {
         if crosses {
             return Land::Junction;
         }
-        let station = polyline::closest(&road.centerline, &point).map_or(0.0, |near| near.station);
-        let parks = road.strips.iter().any(|strip| {
-            strip.kind == LaneKind::Parking
-                && (offset - strip.offset).abs() <= strip.width * 0.5
-                && (strip.stations.0..=strip.stations.1).contains(&station)
-        });
-        if parks { Land::Parking } else { Land::Carriageway }
+        match strip_at(road, point, offset) {
+            Some(LaneKind::Parking) => Land::Parking,
+            Some(LaneKind::Cycle) => Land::CycleLane,
+            _ => Land::Carriageway,
+        }
     }
 
-    fn walk_at(&self, id: RoadId, point: Point2) -> Option<Land> {
+    fn is_on_walk(&self, id: RoadId, point: Point2) -> bool {
         let walks = self.road(id).sidewalks.into_iter().flatten();
         let mut walks = walks.map(|walk| &self.network.sidewalks[walk.index()]);
         let on = |near: Option<polyline::Closest>, width: f64| {
             near.is_some_and(|near| near.distance <= width * 0.5)
         };
-        walks.any(|walk| on(polyline::closest(&walk.path, &point), walk.width)).then_some(Land::Sidewalk)
+        walks.any(|walk| on(polyline::closest(&walk.path, &point), walk.width))
     }
 
     /// Whether a thing on a sidewalk leaves room to walk past it.
-    fn leaves_way(&self, roads: &[RoadId], solid: &Solid) -> bool {
+    pub(super) fn leaves_way(&self, roads: &[RoadId], solid: &Solid) -> bool {
         let walks = roads.iter().flat_map(|road| self.road(*road).sidewalks).flatten();
         let mut walks = walks.map(|walk| &self.network.sidewalks[walk.index()]);
         walks.all(|walk| {
-            let half = walk.width * 0.5;
-            let offsets =
-                solid.corners().map(|corner| offset_along(&walk.path, corner).unwrap_or(f64::INFINITY));
-            let least = offsets.into_iter().fold(f64::INFINITY, f64::min);
-            let most = offsets.into_iter().fold(f64::NEG_INFINITY, f64::max);
-            let is_on = least < half && most > -half;
-            !is_on || (least + half).max(half - most) >= WALKING_WIDTH
+            let offset = |corner| offset_along(&walk.path, corner).unwrap_or(f64::INFINITY);
+            leaves_width(walk.width * 0.5, solid.corners().map(offset))
         })
     }
+}
 
-    /// How well a thing of that kind stands there, from 0 to 1, or why it may not.
-    pub(super) fn suits(&self, kind: EntityKind, solid: &Solid) -> Result<f64, &'static str> {
-        let roads = self.roads_near(solid.planar());
-        if roads.is_empty() {
-            return Ok(1.0);
-        }
-        let [a, b, c, d] = solid.corners();
-        let lands = [a, b, c, d, solid.planar()].map(|at| self.at_of(at, &roads));
-        let any = |land: Land| lands.contains(&land);
-        if any(Land::Junction) && kind != EntityKind::Cone {
-            return Err("streets meet there, or walkers cross");
-        }
-        let on_street = any(Land::Carriageway) || any(Land::Parking);
-        match kind {
-            EntityKind::Cone => Ok(1.0),
-            EntityKind::Car | EntityKind::Truck | EntityKind::Bus | EntityKind::Motorcycle => {
-                if any(Land::Sidewalk) {
-                    Err("a sidewalk is for walkers")
-                } else if any(Land::Parking) {
-                    Ok(1.0)
-                } else {
-                    Ok(if any(Land::Carriageway) { 0.5 } else { 0.7 })
-                }
-            }
-            EntityKind::Building if any(Land::Sidewalk) || on_street => Err("a street is there"),
-            _ if on_street => Err("a carriageway is for traffic"),
-            _ if !self.leaves_way(&roads, solid) => {
-                Err("too little of the sidewalk would be left to walk on")
-            }
-            EntityKind::Tree | EntityKind::Shrub if any(Land::Sidewalk) => Ok(0.4),
-            _ => Ok(1.0),
-        }
-    }
+/// Whether of a walkway of that half width enough is left to walk past a thing whose corners lie so far to the left of its
+/// middle, m; so it is where the thing does not stand on it.
+pub(super) fn leaves_width(half: f64, offsets: [f64; 4]) -> bool {
+    let least = offsets.into_iter().fold(f64::INFINITY, f64::min);
+    let most = offsets.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let is_on = least < half && most > -half;
+    !is_on || (least + half).max(half - most) >= WALKING_WIDTH
+}
+
+/// What strip of a road lies at an offset to the left of its centreline, m, beside a point.
+fn strip_at(road: &Road, point: Point2, offset: f64) -> Option<LaneKind> {
+    let is_at = |strip: &&Strip| (offset - strip.offset).abs() <= strip.width * 0.5;
+    let mut strips = road.strips.iter().filter(is_at).peekable();
+    strips.peek()?;
+    let station = polyline::closest(&road.centerline, &point)?.station;
+    strips.find(|strip| (strip.stations.0..=strip.stations.1).contains(&station)).map(|strip| strip.kind)
 }
 
 fn cell(point: Point2) -> (i32, i32) {
@@ -216,6 +269,10 @@ fn around(filed: &[((i32, i32), u32)], point: Point2) -> impl Iterator<Item = u3
 /// How far to the left of a line a point is, m; `None` beyond its ends.
 pub(super) fn offset_along(line: &[Point2], point: Point2) -> Option<f64> {
     let near = polyline::closest(line, &point)?;
+    // On the way the nearest point is straight across, or the corner of a bend that the point lies on the outside of.
+    if near.station > HAIR && near.station < polyline::length(line) - HAIR {
+        return Some(near.lateral);
+    }
     let (foot, heading) = polyline::at(line, near.station);
     // Beyond an end the nearest point is the end, and the way there is not straight across.
     let ahead = direction(heading).dot(&(point - foot)).abs();
@@ -238,14 +295,14 @@ fn contains(outline: &[Point2], point: Point2) -> bool {
 #[cfg(test)]
 mod tests {
     use simworld_core::geometry::Point3;
-    use simworld_core::net::{CrossSection, NetworkConfig, StreetPlan};
+    use simworld_core::net::{CrossSection, LaneDirection, LaneSpec, NetworkConfig, StreetPlan};
     use simworld_core::scene::Shape;
 
     use super::*;
 
-    fn crossroads() -> Streets {
+    fn crossroads(section: CrossSection) -> Streets {
         let mut plan = StreetPlan::crossroads(100.0);
-        plan.sections[0] = CrossSection::two_way(1, 1).with_parking(2.0);
+        plan.sections[0] = section;
         Streets::of(&Arc::new(RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap()))
     }
 
@@ -255,28 +312,49 @@ mod tests {
 
     #[test]
     fn the_ground_is_for_what_the_section_says() {
-        let streets = crossroads();
+        let streets = crossroads(CrossSection::two_way(1, 1).with_parking(2.0));
         assert_eq!(at(&streets, Point2::new(0.0, 0.0)), Land::Junction);
         assert_eq!(at(&streets, Point2::new(60.0, 1.5)), Land::Carriageway);
         assert_eq!(at(&streets, Point2::new(60.0, 4.5)), Land::Parking);
         assert_eq!(at(&streets, Point2::new(60.0, 7.0)), Land::Sidewalk);
-        assert_eq!(at(&streets, Point2::new(60.0, 30.0)), Land::Open);
+        assert_eq!(at(&streets, Point2::new(60.0, 30.0)), Land::Lot);
+        let streets = crossroads(CrossSection::two_way(1, 1).with_cycle_lanes(1.5));
+        assert_eq!(at(&streets, Point2::new(60.0, 4.25)), Land::CycleLane);
     }
 
     #[test]
-    fn everything_has_its_place() {
-        let streets = crossroads();
-        let car = |y| Solid::standing(Shape::cuboid(4.4, 1.8, 1.4), Point3::new(60.0, y, 0.0), 0.0);
-        let bench =
-            |y, depth| Solid::standing(Shape::cuboid(depth, 1.8, 0.8), Point3::new(60.0, y, 0.0), 1.57);
-        assert_eq!(streets.suits(EntityKind::Car, &car(4.5)), Ok(1.0), "parked");
-        assert!(streets.suits(EntityKind::Car, &car(7.0)).is_err(), "on the sidewalk");
-        assert!(streets.suits(EntityKind::Bench, &bench(1.5, 0.6)).is_err(), "in a lane");
-        assert_eq!(streets.suits(EntityKind::Bench, &bench(30.0, 0.6)), Ok(1.0), "on a lawn");
-        assert!(streets.suits(EntityKind::Bench, &bench(6.8, 2.5)).is_err(), "across the way of walkers");
-        assert!(
-            streets.suits(EntityKind::Tree, &bench(0.0, 0.6)).is_err(),
-            "a tree in the middle of the street"
-        );
+    fn between_kerb_and_sidewalk_lies_a_verge() {
+        let mut section = CrossSection::two_way(1, 1);
+        let verge = LaneSpec { kind: LaneKind::Verge, direction: LaneDirection::Both, width: 2.0 };
+        // From left to right: sidewalk, verge, lane, lane, verge, sidewalk.
+        section.lanes.insert(3, verge);
+        section.lanes.insert(1, verge);
+        section.reference += 2.0;
+        let streets = crossroads(section);
+        assert_eq!(at(&streets, Point2::new(60.0, 4.5)), Land::Verge);
+        assert_eq!(at(&streets, Point2::new(60.0, 7.0)), Land::Sidewalk);
+    }
+
+    #[test]
+    fn on_the_outside_of_a_bend_one_is_beside_the_line_and_beyond_its_end_one_is_not() {
+        let line = [(0.0, 0.0), (50.0, 0.0), (50.0, 50.0)].map(|(x, y)| Point2::new(x, y));
+        // Nearest to it is the corner: to the right of the line that turns left.
+        let offset = offset_along(&line, Point2::new(53.0, -4.0));
+        assert!(offset.is_some_and(|offset| (offset + 5.0).abs() < 1e-12), "{offset:?}");
+        assert_eq!(offset_along(&line, Point2::new(-3.0, 4.0)), None);
+        assert_eq!(offset_along(&line, Point2::new(20.0, 4.0)), Some(4.0));
+    }
+
+    #[test]
+    fn walkers_keep_a_width_of_the_sidewalk() {
+        let streets = crossroads(CrossSection::two_way(1, 1));
+        // The sidewalk reaches from 3.5 to 6.5 m.
+        let leaves_way = |y: f64, depth: f64| {
+            let solid = Solid::standing(Shape::cuboid(1.8, depth, 0.8), Point3::new(60.0, y, 0.0), 0.0);
+            streets.leaves_way(&streets.roads_near(solid.planar()), &solid)
+        };
+        assert!(leaves_way(4.0, 0.6), "2.2 m are left");
+        assert!(!leaves_way(5.0, 0.6), "1.2 m are left on either side");
+        assert!(leaves_way(8.0, 0.6), "it stands beside it");
     }
 }

@@ -7,10 +7,12 @@
 //!
 //! What a relation means is a test, [`Stand::holds`]; the solver draws places from its region and throws out what collides,
 //! blocks a door, stands in traffic, or leaves too little of a sidewalk. So are turns, sizes and swaps that would do so, unless it was so
-//! before. What stands on a thing goes along with it, or is set down where it is gone. [`faults`] and [`Difference`] judge the result
-//! from outside.
+//! before. Of what is left it takes the best ground ([`LandFit`]): vehicles on parking strips and at kerbs, trees on soil; what stands elsewhere
+//! for want of it is told ([`Astray`]). What stands on a thing goes along with it, or is set down where it is gone. [`faults`] and
+//! [`Difference`] judge the result from outside.
 
 mod apply;
+mod astray;
 mod carry;
 mod check;
 mod describe;
@@ -22,7 +24,9 @@ mod floor;
 mod history;
 mod land;
 mod made;
+mod parking;
 mod place;
+mod placing;
 mod reader;
 mod relax;
 mod rest;
@@ -32,12 +36,15 @@ mod solid;
 mod stand;
 mod stay;
 mod stock;
+mod suits;
+mod surfaces;
 mod taken;
 mod workshop;
 
 pub use apply::Edited;
 #[cfg(feature = "scene-files")]
 pub(crate) use apply::recipe_of;
+pub use astray::Astray;
 #[cfg(feature = "scene-files")]
 pub(crate) use check::SUPPORT_GAP;
 pub use check::{Difference, Fault, faults};
@@ -45,11 +52,12 @@ pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;
 pub use error::EditError;
+pub use land::{Land, LandFit};
 #[cfg(feature = "thought")]
 pub(crate) use made::nth_made;
-pub use place::{Candidate, Outcome, Placing};
 #[cfg(feature = "scene-files")]
 pub(crate) use place::{is_surface, land_under};
+pub use placing::{Candidate, Outcome, Placing};
 pub use reader::{Asked, EditReader, ReadBy};
 pub use relax::Relaxed;
 pub(crate) use rest::has_flat_top;

@@ -1,10 +1,9 @@
 //! The placement solver: draws places from the region of a relation, throws out what collides, blocks or stands where it
 //! may not, and takes the best of what is left. It can say what became of every place that it tried.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2, Point3, Pose, yaw_of};
+use simworld_core::geometry::{Aabb, Point2, Point3, yaw_of};
 use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
@@ -12,112 +11,23 @@ use simworld_core::seed::{Stream, StreamRng};
 
 use super::check::{SUPPORT_GAP, finds_footing};
 use super::edit::Stand;
-use super::land::Streets;
+use super::land::{LandFit, Streets};
+use super::parking::parks;
+use super::placing::{Candidate, Outcome, Placing};
 use super::rest::{carries, foot_of};
 use super::sample::{Item, Sampler, Spot};
 use super::solid::Solid;
 use super::stand::Subject;
+use super::suits::{KERB, Site, named_ground};
 
 /// Places that are tried for a thing at the most.
 const TRIES: u32 = 240;
-/// So many that fit are enough to choose from.
+/// So many that fit are enough to choose from, as far as their ground leaves nothing to wish for.
 const ENOUGH: u32 = 16;
 /// Between things there is a hand's breadth, m.
 const HAND: f64 = 0.1;
 /// Before a door there is room for a person, m.
 const DOORWAY: f64 = 0.8;
-
-/// What became of a place that was tried.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Outcome {
-    /// It is possible; the greater score is taken, from 0 to 1.
-    Fits {
-        /// Half of it how near it is to where people would look first, half how well the ground suits.
-        score: f64,
-    },
-    /// Something stands there.
-    Collides {
-        /// What.
-        with: EntityId,
-    },
-    /// It would stand in front of a door.
-    Blocks {
-        /// Whose.
-        door: EntityId,
-    },
-    /// The ground is for something else.
-    Land {
-        /// Why not.
-        why: &'static str,
-    },
-    /// Nothing holds it up there.
-    Unsupported,
-    /// Another relation that was asked for does not hold there.
-    Elsewhere,
-}
-
-/// A place that was tried.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
-    /// World from body.
-    pub pose: Pose,
-    /// What became of it.
-    pub outcome: Outcome,
-}
-
-/// What was tried for one thing, and which place was taken.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Placing {
-    /// Every place, in the order of trial.
-    pub candidates: Vec<Candidate>,
-    /// Index of the one that was taken.
-    pub taken: Option<usize>,
-}
-
-impl Placing {
-    /// World from body, if a place was found.
-    pub fn pose(&self) -> Option<Pose> {
-        Some(self.candidates[self.taken?].pose)
-    }
-
-    /// Other places that would do, the best first.
-    pub fn alternatives(&self) -> Vec<&Candidate> {
-        let score = |candidate: &Candidate| match candidate.outcome {
-            Outcome::Fits { score } => Some(score),
-            _ => None,
-        };
-        let others = self.candidates.iter().enumerate().filter(|(index, _)| Some(*index) != self.taken);
-        let mut fitting: Vec<_> = others.filter(|(_, candidate)| score(candidate).is_some()).collect();
-        fitting.sort_by(|a, b| score(b.1).unwrap_or(0.0).total_cmp(&score(a.1).unwrap_or(0.0)));
-        fitting.into_iter().map(|(_, candidate)| candidate).collect()
-    }
-
-    /// What spoke against the places that were thrown out, the most frequent reason first.
-    pub fn reasons(&self, scene: &dyn Scene) -> String {
-        let label = |id: &EntityId| {
-            scene.entity(*id).map_or_else(|| id.to_string(), |entity| format!("{} ({id})", entity.label()))
-        };
-        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-        for candidate in &self.candidates {
-            let reason = match &candidate.outcome {
-                Outcome::Fits { .. } => continue,
-                Outcome::Collides { with } => format!("{} is in the way", label(with)),
-                Outcome::Blocks { door } => format!("the door of {} would be blocked", label(door)),
-                Outcome::Land { why } => (*why).to_owned(),
-                Outcome::Unsupported => "it would not stand safely".to_owned(),
-                Outcome::Elsewhere => "not all that was asked holds there".to_owned(),
-            };
-            *counts.entry(reason).or_default() += 1;
-        }
-        let mut counts: Vec<_> = counts.into_iter().collect();
-        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-        let all = self.candidates.len();
-        let said: Vec<String> =
-            counts.iter().take(3).map(|(why, count)| format!("{why} at {count} of {all} places")).collect();
-        if said.is_empty() { "no such place".to_owned() } else { said.join(", ") }
-    }
-}
 
 /// Finds places in a scene.
 pub(super) struct Placer<'a> {
@@ -144,6 +54,7 @@ impl Placer<'_> {
         let item = Item { kind: subject.kind, half: size.xy() * 0.5, rank };
         let sampler = Sampler { scene: self.scene, streets: self.streets, item, from: self.from };
         let exact = stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
+        let least = self.hopes_for(subject.kind, stands);
         // Who names a point means that nothing is turned there.
         let kept = subject.id.and_then(|id| self.scene.entity(id)).filter(|_| exact);
         let kept = kept.map(|thing| yaw_of(thing.pose));
@@ -155,8 +66,8 @@ impl Placer<'_> {
             let spot = Spot { yaw: kept.unwrap_or(spot.yaw), ..spot };
             let solid = self.set_down(subject, stands, &spot);
             let outcome = self.judge(subject, stands, &spot, &solid);
-            if let Outcome::Fits { score } = outcome {
-                fitting += 1;
+            if let Outcome::Fits { score, fit } = outcome {
+                fitting += u32::from(!fit.astray && fit.suits >= least);
                 if score > best {
                     best = score;
                     placing.taken = Some(placing.candidates.len());
@@ -188,6 +99,17 @@ impl Placer<'_> {
         }
     }
 
+    /// How well the ground should suit a thing before it is enough: where streets are near, a vehicle may yet find a kerb.
+    fn hopes_for(&self, kind: EntityKind, stands: &[Stand]) -> f64 {
+        let Some(streets) = self.streets.filter(|_| parks(kind)) else { return 0.0 };
+        let anchors = stands.iter().filter_map(Stand::anchor).filter_map(|anchor| self.scene.entity(anchor));
+        let mut points: Vec<Point2> = anchors.map(|anchor| anchor.planar()).collect();
+        if points.is_empty() {
+            points.push(self.from);
+        }
+        if points.iter().any(|point| !streets.roads_near(*point).is_empty()) { KERB } else { 0.0 }
+    }
+
     fn draw(
         &self,
         sampler: &Sampler<'_>,
@@ -195,15 +117,25 @@ impl Placer<'_> {
         attempt: u32,
         rng: &mut StreamRng,
     ) -> Option<Spot> {
+        let parks = parks(sampler.item.kind);
         if stands.is_empty() {
-            return Some(sampler.anywhere(rng));
+            let spot = sampler.anywhere(rng);
+            let parked = if parks && attempt % 2 == 1 { sampler.pulled_over(&spot) } else { None };
+            return Some(parked.unwrap_or(spot));
         }
-        let stand = &stands[attempt as usize % stands.len()];
-        // Vehicles are looked for a place at the kerb every other time.
-        let parks = sampler.item.kind.is_vehicle() && attempt % 2 == 1;
-        let near = stand.anchor().and_then(|anchor| self.scene.entity(anchor)).filter(|_| parks);
-        let parked = near.and_then(|near| sampler.parked(near.planar(), rng));
-        parked.or_else(|| sampler.draw(stand, rng)).map(|spot| self.grounded(stand, spot))
+        let (round, rank) = (attempt as usize / stands.len(), attempt as usize % stands.len());
+        let stand = &stands[rank];
+        // Vehicles are looked for a place at the kerb every other time: in turn near what they are to stand to, and near a place where
+        // they would stand so. "Along a street" is beside its carriageway.
+        let pulls_over = parks && round % 2 == 1 && !matches!(stand, Stand::AlongRoad { .. });
+        let near = stand.anchor().and_then(|anchor| self.scene.entity(anchor)).filter(|_| round % 4 == 1);
+        let parked = near.filter(|_| pulls_over).and_then(|near| sampler.parked(near.planar(), rng));
+        if let Some(parked) = parked {
+            return Some(self.grounded(stand, parked));
+        }
+        let spot = sampler.draw(stand, rng)?;
+        let parked = if pulls_over { sampler.pulled_over(&spot) } else { None };
+        Some(self.grounded(stand, parked.unwrap_or(spot)))
     }
 
     /// What stands beside a thing on a table stands on the ground.
@@ -254,16 +186,19 @@ impl Placer<'_> {
         }
         // Who names a point, or a thing to stand on, means it.
         let exact = on_top.is_some() || stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
-        let land = match self.streets.filter(|_| !exact) {
-            Some(streets) => streets.suits(subject.kind, solid),
-            None => Ok(1.0),
-        };
+        let fit = if exact { Ok(LandFit::ASKED) } else { self.suits(subject.kind, stands, solid) };
         let carried = || land_carries(self.scene, subject.kind, solid, on_top.is_some());
-        let land = land.and_then(|land| carried().map(|()| land));
-        match land {
-            Ok(land) => Outcome::Fits { score: 0.5 * (1.0 - spot.odd) + 0.5 * land },
+        match fit.and_then(|fit| carried().map(|()| fit)) {
+            Ok(fit) => Outcome::fits(spot.odd, fit),
             Err(why) => Outcome::Land { why },
         }
+    }
+
+    /// How well the ground suits a thing, or why it may not stand there.
+    fn suits(&self, kind: EntityKind, stands: &[Stand], solid: &Solid) -> Result<LandFit, &'static str> {
+        let asked = named_ground(stands);
+        let site = Site { scene: self.scene, streets: self.streets, gone: self.lifted, asked: &asked };
+        site.suits(kind, solid)
     }
 
     /// What is in the way, or whose door.
@@ -364,7 +299,7 @@ pub(super) fn land_carries(
 mod tests {
     use std::sync::Arc;
 
-    use simworld_core::geometry::pose_facing;
+    use simworld_core::geometry::{Pose, pose_facing};
     use simworld_core::ground::{Cover, GroundData};
     use simworld_core::scene::{EntityDesc, World};
     use simworld_core::seed::Seed;

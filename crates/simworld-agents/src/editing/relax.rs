@@ -1,5 +1,6 @@
 //! What would be possible where nothing has room as it was asked: looked for by the solver, and never guessed.
 
+use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::geometry::{Point2, direction, planar, yaw_of};
@@ -10,7 +11,8 @@ use simworld_core::seed::Stream;
 
 use super::edit::Stand;
 use super::land::Streets;
-use super::place::{Candidate, Outcome, Placer};
+use super::place::Placer;
+use super::placing::Candidate;
 use super::solid::Solid;
 use super::stand::{FAR_SIDE, NEAR, Subject};
 
@@ -141,13 +143,15 @@ impl Search<'_> {
         let fits = |candidate: &&Candidate| {
             let solid = Solid { pose: candidate.pose, shape: self.subject.info.shape };
             let holds = |stand: &Stand| stand.would_hold(scene, streets, self.subject, &solid);
-            matches!(candidate.outcome, Outcome::Fits { .. }) && far.iter().all(holds)
+            candidate.score().is_some() && far.iter().all(holds)
         };
         let around = [middle, from].into_iter().chain(AROUND.into_iter().flat_map(ring));
         around.enumerate().find_map(|(rank, from)| {
             let placer = Placer { scene, streets, from, lifted, load };
             let placing = placer.place(self.subject, (0, 1), &[], self.stream.indexed(200 + rank as u64));
-            placing.candidates.iter().find(fits).map(|found| planar(&found.pose))
+            let fitting = placing.candidates.iter().filter(fits);
+            let best = fitting.max_by(|a, b| a.score().partial_cmp(&b.score()).unwrap_or(Ordering::Equal));
+            best.map(|found| planar(&found.pose))
         })
     }
 }

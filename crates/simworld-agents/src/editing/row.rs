@@ -8,11 +8,13 @@ use simworld_core::net::polyline;
 use simworld_core::scene::EntityDesc;
 
 use super::apply::Applier;
+use super::astray::Astray;
 use super::edit::{Line, Make, Sides, Spacing, Stand};
 use super::error::EditError;
 use super::floor::Floors;
-use super::land::Streets;
-use super::place::{Candidate, Outcome, Placer, Placing};
+use super::land::{Land, Streets};
+use super::place::Placer;
+use super::placing::{Candidate, Outcome, Placing};
 use super::relax::Relaxed;
 use super::sample::{Item, Sampler, Spot};
 use super::solid::Solid;
@@ -51,6 +53,12 @@ impl Applier<'_> {
         let found = self.rows(&desc, line, spacing)?;
         let left_out: usize = found.iter().map(|row| row.left_out).sum();
         for row in found {
+            for land in row.astray {
+                let told = stands_of(line).first().map(|stand| stand.told(self.scene.world()));
+                let what = desc.info.name.clone().unwrap_or_else(|| make_name(&desc));
+                let astray = Astray { what, land, place: told.unwrap_or_default(), count: 1 };
+                astray.add_to(&mut self.edited.astray);
+            }
             self.tried.push(row.tried);
             for pose in row.poses {
                 self.spawn(EntityDesc { pose, ..desc.clone() })?;
@@ -78,7 +86,7 @@ impl Applier<'_> {
         let mut rows = Vec::new();
         for track in &tracks {
             let stations = stations(track, spacing, half.x.max(half.y) * 2.0)?;
-            rows.push(Row::on(track, &stations, spacing, &wanted, &placer, Ends::WithTheLine));
+            rows.push(Row::best_on(track, &stations, spacing, &wanted, &placer));
         }
         let enough = |row: &Row| match spacing {
             Spacing::Count(_) => row.left_out == 0,
@@ -90,9 +98,12 @@ impl Applier<'_> {
             rows.retain(enough);
             return Ok(rows);
         }
-        // Of several as full the first.
-        let best =
-            rows.iter().enumerate().max_by_key(|(rank, row)| (row.poses.len(), std::cmp::Reverse(*rank)));
+        // Of the sides that are as full that with most on their own ground, and of several rows as good the first.
+        let has_sides = matches!(line, Line::Road { .. } | Line::RoadSide { .. } | Line::Along { .. });
+        let best = rows.iter().enumerate().max_by_key(|(rank, row)| {
+            let astray = if has_sides { row.astray.len() } else { 0 };
+            (row.poses.len(), std::cmp::Reverse(astray), std::cmp::Reverse(*rank))
+        });
         let best = best.map(|(rank, _)| rank).unwrap_or_default();
         if rows.get(best).is_some_and(enough) {
             return Ok(vec![rows.swap_remove(best)]);
@@ -150,7 +161,7 @@ fn fewer(tracks: &[Track<'_>], below: usize, wanted: &Wanted<'_>, placer: &Place
         tracks.iter().find_map(|track| {
             let spacing = Spacing::Count(count);
             let stations = stations(track, spacing, size.max()).ok()?;
-            let row = Row::on(track, &stations, spacing, wanted, placer, Ends::AtTheFirstGap);
+            let row = Row::on(track, &stations, spacing, wanted, placer, Search::ToTheFirstGap);
             let spacing = track.length / f64::from(count);
             (row.left_out == 0).then_some(Relaxed::Fewer { count, spacing })
         })
@@ -173,13 +184,15 @@ struct Wanted<'a> {
     floors: Floors,
 }
 
-/// How long a row is looked for.
+/// How a row is looked for.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Ends {
+enum Search {
     /// As far as the line goes.
-    WithTheLine,
+    WholeLine,
+    /// The same, on nothing but ground that is for such things, and as nearly even as where nobody said how many there are.
+    OwnGround,
     /// Until one of them has no place: then not all fit.
-    AtTheFirstGap,
+    ToTheFirstGap,
 }
 
 /// A row that was looked for.
@@ -187,6 +200,8 @@ struct Row {
     poses: Vec<Pose>,
     left_out: usize,
     tried: Placing,
+    /// On what ground those of it stand that do not stand on their own.
+    astray: Vec<Land>,
 }
 
 impl Row {
@@ -196,13 +211,30 @@ impl Row {
         if at.is_empty() { Relaxed::Nothing } else { Relaxed::Free { at } }
     }
 
+    /// The row along a track: on ground that is for such things, if none of those is lost by it that stand there otherwise.
+    fn best_on(
+        track: &Track<'_>,
+        stations: &[f64],
+        spacing: Spacing,
+        wanted: &Wanted<'_>,
+        placer: &Placer<'_>,
+    ) -> Self {
+        let find = |search| Self::on(track, stations, spacing, wanted, placer, search);
+        let row = find(Search::WholeLine);
+        if row.astray.is_empty() {
+            return row;
+        }
+        let own = find(Search::OwnGround);
+        if own.poses.len() >= row.poses.len() { own } else { row }
+    }
+
     fn on(
         track: &Track<'_>,
         stations: &[f64],
         spacing: Spacing,
         wanted: &Wanted<'_>,
         placer: &Placer<'_>,
-        ends: Ends,
+        search: Search,
     ) -> Self {
         let Wanted { desc, stands, floors } = wanted;
         let step = match (spacing, stations) {
@@ -210,8 +242,9 @@ impl Row {
             (Spacing::Count(_), [first, second, ..]) => second - first,
             (Spacing::Count(_), _) => track.length * 0.5,
         };
-        let slides: &[f64] = if matches!(spacing, Spacing::Count(_)) { &WIDE_SLIDES } else { &SLIDES };
-        let mut row = Self { poses: Vec::new(), left_out: 0, tried: Placing::default() };
+        let is_counted = matches!(spacing, Spacing::Count(_)) && search != Search::OwnGround;
+        let slides: &[f64] = if is_counted { &WIDE_SLIDES } else { &SLIDES };
+        let mut row = Self { poses: Vec::new(), left_out: 0, tried: Placing::default(), astray: Vec::new() };
         let mut solids: Vec<Solid> = Vec::new();
         // What was off the line so far stands best there again: a row is straight.
         let mut offs = track.offs.clone();
@@ -225,10 +258,12 @@ impl Row {
                     if solids.iter().any(|other| other.overlaps(&solid.inflated(HAND))) {
                         outcome = Outcome::Elsewhere;
                     }
-                    let fits = matches!(outcome, Outcome::Fits { .. });
-                    row.tried.candidates.push(Candidate { pose: solid.pose, outcome });
-                    if fits {
+                    let candidate = Candidate { pose: solid.pose, outcome };
+                    let fit = candidate.fit().filter(|fit| search != Search::OwnGround || !fit.astray);
+                    row.tried.candidates.push(candidate);
+                    if let Some(fit) = fit {
                         found = Some((rank, solid));
+                        row.astray.extend(fit.astray.then_some(fit.land));
                         break 'places;
                     }
                 }
@@ -240,7 +275,7 @@ impl Row {
                 solids.push(solid);
             } else {
                 row.left_out += 1;
-                if ends == Ends::AtTheFirstGap {
+                if search == Search::ToTheFirstGap {
                     break;
                 }
             }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use simworld_core::geometry::{Point2, Point3, Vector2, direction, heading};
 use simworld_core::id::{IntersectionId, RoadId};
-use simworld_core::net::{LaneKind, polyline};
+use simworld_core::net::polyline;
 use simworld_core::ops::sin_cos;
 use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
 use simworld_core::seed::StreamRng;
@@ -14,6 +14,9 @@ use super::land::Streets;
 use super::rest::foot_of;
 use super::solid::Solid;
 use super::stand::{AIM, ALONG, EDGE, FAR_SIDE, JUNCTION, NEAR, OPPOSITE};
+
+/// From farther beyond a kerb than this a vehicle is not pulled over to it, nor farther along a street, m.
+const PULLS_OVER: f64 = 25.0;
 
 /// A place to try: where the middle of the bottom comes to stand, its height, and which way the thing looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -373,23 +376,38 @@ impl Sampler<'_> {
         Spot { at, base: self.level(at), yaw, odd }
     }
 
-    /// Where vehicles may be parked near a thing: on the strips for it, or at the kerb.
+    /// Where vehicles may be parked near a point: on a strip for it, or at the kerb.
     pub(super) fn parked(&self, near: Point2, rng: &mut StreamRng) -> Option<Spot> {
+        let roads = self.streets?.roads_near(near);
+        let id = *rng.choose(&roads)?;
+        let middle = polyline::closest(&self.streets?.road(id).centerline, &near)?.station;
+        let ahead = rng.uniform(-PULLS_OVER, PULLS_OVER);
+        self.at_kerb(id, middle + ahead, rng.chance(0.5), ahead.abs() / PULLS_OVER)
+    }
+
+    /// The nearest place at a kerb to a spot, or on a strip for parking there.
+    pub(super) fn pulled_over(&self, spot: &Spot) -> Option<Spot> {
         let streets = self.streets?;
-        let roads = streets.roads_near(near);
-        let road = streets.road(*rng.choose(&roads)?);
-        let middle = polyline::closest(&road.centerline, &near)?.station;
-        let station = middle + rng.uniform(-25.0, 25.0);
-        let strips: Vec<_> = road.strips.iter().filter(|strip| strip.kind == LaneKind::Parking).collect();
-        let (left, offset) = if let Some(strip) = rng.choose(&strips) {
-            (strip.offset > 0.0, strip.offset.abs())
-        } else {
-            let left = rng.chance(0.5);
-            let kerb = if left { road.left_kerb } else { road.right_kerb };
-            (left, kerb - self.item.half.y - 0.15)
-        };
-        let length = polyline::length(&road.centerline);
-        (0.0..=length).contains(&station).then(|| self.on_edge(road, station, left, offset, 0.2))
+        let beside = streets.roads_near(spot.at).into_iter().filter_map(|id| {
+            let road = streets.road(id);
+            let near = polyline::closest(&road.centerline, &spot.at)?;
+            // From the middle of the carriageway, which need not be where the line is.
+            let off = near.lateral - (road.left_kerb - road.right_kerb) * 0.5;
+            Some((off.abs() - road.width * 0.5, id, near.station, off >= 0.0))
+        });
+        let nearest = beside.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let (_, id, station, left) = nearest.filter(|(beyond, ..)| *beyond <= PULLS_OVER)?;
+        self.at_kerb(id, station, left, spot.odd)
+    }
+
+    fn at_kerb(&self, id: RoadId, station: f64, left: bool, odd: f64) -> Option<Spot> {
+        let streets = self.streets?;
+        let length = polyline::length(&streets.road(id).centerline);
+        if !(0.0..=length).contains(&station) {
+            return None;
+        }
+        let (at, yaw) = streets.parking_at(id, station, left, self.item.half.y)?;
+        Some(Spot { at, base: self.level(at), yaw, odd })
     }
 
     /// Height of the ground, m: that of the street nearby, or of what stands nearest.

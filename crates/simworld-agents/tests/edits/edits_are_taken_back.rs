@@ -324,7 +324,7 @@ fn it_says_where_else_a_thing_would_stand_and_the_best_of_it_first() {
     let placing = editor.last_placings().last().expect("it was put somewhere").clone();
     assert_eq!(placing.pose(), Some(desc.pose), "it stands where it was put");
     let score = |candidate: &Candidate| match candidate.outcome {
-        Outcome::Fits { score } => score,
+        Outcome::Fits { score, .. } => score,
         ref other => panic!("nothing stands there: {other:?}"),
     };
     let taken = placing.taken.map(|index| score(&placing.candidates[index])).expect("it was put somewhere");
