@@ -5,7 +5,8 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{Relation, Scene};
 
 use super::edit::{Line, Stand};
-use super::place::{Outcome, Placer};
+use super::place::Placer;
+use super::placing::Outcome;
 use super::rest::{carries, foot_of, support_of};
 use super::sample::Spot;
 use super::solid::Solid;

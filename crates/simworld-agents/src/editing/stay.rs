@@ -15,6 +15,7 @@ use super::land::Streets;
 use super::place::{doors_before, doorway, in_the_way, land_carries, under};
 use super::rest::{carries, support_of};
 use super::solid::Solid;
+use super::suits::Site;
 
 /// A thing as it stands, or would.
 #[derive(Clone, Copy)]
@@ -78,7 +79,8 @@ impl Change<'_> {
         {
             return Some(format!("{} would stand before its door", label(with)));
         }
-        let street = |body: &Body| streets.and_then(|all| all.suits(body.kind, &body.solid).err());
+        let site = Site { scene, streets, gone: self.lifted, asked: &[] };
+        let street = |body: &Body| site.suits(body.kind, &body.solid).err();
         let land = |body: &Body| land_carries(scene, body.kind, &body.solid, false).err();
         self.worse(&street).or_else(|| self.worse(&land)).map(str::to_owned)
     }

@@ -45,7 +45,8 @@ impl<'a> Ways<'a> {
         let own = self.span(name, road);
         let pieces = self.named.get(name).map_or(&[][..], Vec::as_slice);
         let alike = |other: &&RoadId| **other < road && self.span(name, **other) == own;
-        numbered(own, pieces.iter().filter(alike).count())
+        let before = pieces.iter().filter(alike).count();
+        numbered(own, before)
     }
 
     fn span(&self, name: &str, road: RoadId) -> String {

@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 28] = [
+const SETS: [&str; 29] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -62,6 +62,7 @@ const SETS: [&str; 28] = [
     "twentysixth",
     "twentyseventh",
     "twentyeighth",
+    "twentyninth",
 ];
 
 /// One thing that is said, and what it means.
