@@ -228,17 +228,19 @@ impl Streets {
         let walks = roads.iter().flat_map(|road| self.road(*road).sidewalks).flatten();
         let mut walks = walks.map(|walk| &self.network.sidewalks[walk.index()]);
         walks.all(|walk| {
-            let offset = |corner| offset_along(&walk.path, corner).unwrap_or(f64::INFINITY);
-            leaves_width(walk.width * 0.5, solid.corners().map(offset))
+            // Corners beyond its ends are beside no part of it.
+            let beside = solid.corners().into_iter().filter_map(|corner| offset_along(&walk.path, corner));
+            leaves_width(walk.width * 0.5, beside)
         })
     }
 }
 
 /// Whether of a walkway of that half width enough is left to walk past a thing whose corners lie so far to the left of its
 /// middle, m; so it is where the thing does not stand on it.
-pub(super) fn leaves_width(half: f64, offsets: [f64; 4]) -> bool {
-    let least = offsets.into_iter().fold(f64::INFINITY, f64::min);
-    let most = offsets.into_iter().fold(f64::NEG_INFINITY, f64::max);
+pub(super) fn leaves_width(half: f64, offsets: impl Iterator<Item = f64>) -> bool {
+    let (least, most) = offsets.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), offset| {
+        (least.min(offset), most.max(offset))
+    });
     let is_on = least < half && most > -half;
     !is_on || (least + half).max(half - most) >= WALKING_WIDTH
 }

@@ -74,7 +74,7 @@ impl Surfaces {
                 let local = piece.solid.local(corner);
                 if half.x >= half.y { local.y } else { local.x }
             };
-            leaves_width(half.min(), thing.corners().map(across))
+            leaves_width(half.min(), thing.corners().into_iter().map(across))
         })
     }
 }

@@ -131,7 +131,8 @@ fn without_asking_for_a_nod(lexemes: &mut Vec<Lexeme>) {
 fn which_one(lexemes: &mut Vec<Lexeme>) {
     const MOST: usize = 3;
     let Some(end) = lexemes.iter().position(|lexeme| lexeme.token == Token::Break) else { return };
-    let Some(which) = (0..end).find(|at| word_at(lexemes, *at) == "which") else { return };
+    let is_which = |at: &usize| word_at(lexemes, *at) == "which" && word_at(lexemes, at + 1) != "of";
+    let Some(which) = (0..end).find(is_which) else { return };
     let is = (which + 2..end.min(which + 2 + MOST)).find(|at| word_at(lexemes, *at) == "is");
     let Some(is) = is.filter(|_| end + 1 < lexemes.len() && (which == 0 || is_mark(&lexemes[which - 1])))
     else {

@@ -225,11 +225,9 @@ impl GrammarPlanner {
             if !matches!(refused, PlanError::NotFound { .. }) {
                 return Err(refused);
             }
-            let mut heard = hearing::hear(words, me.info.name.as_deref());
-            spelling::correct(&mut heard, names);
-            let orders =
-                talk::without_talk(&heard, names).filter_map(|rest| words.get(rest.first()?.start..));
-            let mut plans = orders.map(&plan);
+            let heard = hearing::hear(words, me.info.name.as_deref());
+            let orders = told_otherwise(&heard, names).into_iter();
+            let mut plans = orders.map(|told| drafted(&read(words, told, names, &view)?, view.clone(), me));
             plans.find_map(Result::ok).ok_or(refused)
         })
     }
@@ -288,25 +286,33 @@ fn in_other_words(
     if matches!(refused, PlanError::Ambiguous { .. }) {
         return Err(refused);
     }
+    let mut answer = refused;
+    for lexemes in told_otherwise(heard, names) {
+        match read(words, lexemes, names, view) {
+            Err(other) if understood(&other) && !understood(&answer) => answer = other,
+            Err(_) => {}
+            read => return read,
+        }
+    }
+    Err(answer)
+}
+
+/// What was heard without talk and in plainer words, in the order in which it is to be tried.
+fn told_otherwise(heard: &[lexer::Lexeme], names: &Names<'_>) -> Vec<Vec<lexer::Lexeme>> {
     let mut corrected = heard.to_vec();
     spelling::correct(&mut corrected, names);
     let bare = talk::without_idioms(&corrected);
     let whole = bare.as_deref().unwrap_or(&corrected);
-    let mut answer = refused;
-    for told in std::iter::once(whole).chain(talk::without_talk(whole, names)) {
+    let mut all = Vec::new();
+    let told = std::iter::once(whole).chain(talk::without_talk(whole, names));
+    for told in told.flat_map(|told| std::iter::once(told).chain(talk::without_tail(told, names))) {
         let plain = retold::retold(told, names);
         let mut anew = told.to_vec();
         repairs::mend(&mut anew); // what is told in the talk may have hidden a slip
-        let as_it_is = (anew != corrected).then_some(anew);
-        for lexemes in as_it_is.into_iter().chain(plain) {
-            match read(words, lexemes, names, view) {
-                Err(other) if understood(&other) && !understood(&answer) => answer = other,
-                Err(_) => {}
-                read => return read,
-            }
-        }
+        all.extend((anew != corrected).then_some(anew));
+        all.extend(plain);
     }
-    Err(answer)
+    all
 }
 
 /// Whether an answer says more than that nothing was understood.

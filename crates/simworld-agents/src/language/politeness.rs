@@ -184,7 +184,7 @@ pub(super) const MANNERS: &Phrases = &Phrases::of(&[
     "never stop", "and never stop", "dont stop", "and dont lose it", "and dont lose him", "and dont lose her",
     "dont lose it", "dont lose him", "dont lose her", "and dont let it out of your sight",
     "and dont let him out of your sight", "and dont let her out of your sight", "dont let it out of your sight",
-    "the closer one first", "closer one first", "first the closer one", "first the nearer one", "first the nearest one", "first the one that is closer to you", "first the one thats closer to you", "first the one closer to you",
+    "starting with the nearest and ending with the farthest", "from the nearest to the farthest", "the closer one first", "closer one first", "first the closer one", "first the nearer one", "first the nearest one", "first the one that is closer to you", "first the one thats closer to you", "first the one closer to you",
     "the closest one first", "closest one first", "starting with the closer one", "starting with the nearer one", "beginning with the nearer one", "beginning with the closer one", "starting with the closest one",
     "nearer one first", "nearest one first", "nearest first", "the nearest first", "the nearer one first",
     "the nearer first", "starting with the closest one", "starting with the nearest one", "beginning with the closest", "beginning with the nearest", "beginning with the closest one",

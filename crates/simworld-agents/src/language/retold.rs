@@ -36,6 +36,7 @@ const PLAINER: &[(&str, &str)] = &[
     ("each time", ""), ("every time", ""), ("walk up to that", "walk up to it"), ("go up to that", "go up to it"), ("all three of the", "all three"),
     ("all four of the", "all four"), ("would that do", ""), ("will that do", ""), ("would that work", ""), ("does that work", ""), ("is that alright", ""),
     ("is that all right", ""), ("is that ok", ""), ("is that okay", ""), ("how about that", ""), ("what about that", ""), ("how would that be", ""),
+    ("at the very end", "finally"), ("so easily", ""), ("so often", ""), ("so slowly", ""), ("so much", ""),
     ("climb onto", "get on"), ("climb on to", "get on"), ("climb up on", "get on"),
 ];
 /// Ground over which a way leads that ends elsewhere.

@@ -36,14 +36,14 @@ const IDIOMS: &Phrases = &Phrases::of(&[
     "or so im told", "or so i am told", "or something", "or something like that", "or so i think", "i think", "i guess", "i suppose", "i believe", "i hope", "i bet", "you know", "you see", "would you believe it",
     "can you believe it", "can you imagine", "what a day", "fat fingers", "fat fingers today", "busy day", "busy day today", "long day", "big day", "big day today", "lucky me", "poor me", "poor thing", "here we are", "here we are again", "there we are",
     "first time here", "my first time here", "its my first time here", "nothing to worry about", "nothing much", "not much", "just so you know", "just saying", "no idea why", "dont know why", "i dont know why", "who knows", "who knows why", "goodness knows", "god knows",
-    "what can i say", "what can you do", "where was i", "where were we", "as usual", "as always", "of all days", "of all things", "for once", "once more", "plan for today", "plan for the day", "nothing personal", "you wouldnt believe it", "it wasnt me", "i couldnt say", "i could not say", "not again", "id love a lift", "id love a lift home", "silly man", "silly woman", "silly me", "isnt it", "is not it", "whatever", "make some friends", "time for tea", "thirsty work", "thirsty work this", "well roughly", "hint hint", "wink wink", "much obliged", "cheers", "ta", "that is all", "thats all",
+    "what can i say", "what can you do", "where was i", "where were we", "as usual", "as always", "of all days", "of all things", "for once", "once more", "plan for today", "plan for the day", "nothing personal", "you wouldnt believe it", "it wasnt me", "i couldnt say", "i could not say", "not again", "let me sit", "you sit", "no you sit", "already", "evening already", "night already", "lets get everyone together", "lets get everybody together", "id like you in the picture", "id like you in it", "if you dont mind", "if you do not mind", "if thats ok", "id love a lift", "id love a lift home", "silly man", "silly woman", "silly me", "isnt it", "is not it", "whatever", "make some friends", "time for tea", "thirsty work", "thirsty work this", "well roughly", "hint hint", "wink wink", "much obliged", "cheers", "ta", "that is all", "thats all",
 ]);
 /// With what a sentence of politeness begins, whatever follows.
 #[rustfmt::skip]
 const POLITE: &Phrases = &Phrases::of(&[
     "sorry for", "sorry about", "sorry to", "sry for", "sorry im", "sorry i am", "sry im", "cheers for", "thanks for", "thank you for", "ta for", "apologies for", "excuse my", "excuse the", "pardon my", "pardon the", "forgive my", "forgive the",
-    "someone has to", "somebody has to", "lovely to see", "nice to see", "good to see", "great to see", "lovely to meet", "nice to meet", "good to meet", "happy to", "glad to", "sry typing", "sorry typing", "typing with", "typing on", "look whos", "look who is", "look what", "look at the time", "lets see if you get", "lets see whether you get",
-    "lets see how you", "lets see how well", "let us see how", "lets find out",
+    "someone has to", "somebody has to", "lovely to see", "nice to see", "good to see", "great to see", "lovely to meet", "nice to meet", "good to meet", "happy to", "glad to", "sry typing", "sorry typing", "typing with", "typing on", "look whos", "look who is", "look what", "look at the time", "lets see if", "lets see whether", "lets see how", "lets see what", "let us see if", "let us see whether", "let us see what",
+    "let us see how", "lets find out",
 ]);
 /// Words of judgement before what is called so, without a verb.
 #[rustfmt::skip]
@@ -74,6 +74,43 @@ pub(super) fn without_talk<'a>(
         rests.push(&lexemes[from..]);
     }
     rests.into_iter().filter(|rest| !rest.iter().all(is_mark))
+}
+
+/// The order before a last remark: "..., the first one squeaks"; none where what stands behind the last comma is no talk.
+pub(super) fn without_tail<'a>(lexemes: &'a [Lexeme], names: &Names<'_>) -> Option<&'a [Lexeme]> {
+    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme))? + 1;
+    let mark = lexemes[..end].iter().rposition(is_mark).filter(|mark| *mark > 1)?;
+    let (order, tail) = (&lexemes[..mark], &lexemes[mark + 1..end]);
+    let told = tail.len() > 2 && (is_talk(tail, order, names) || tells_of_it(tail));
+    told.then_some(order)
+}
+
+/// "It needs a test drive", "the first one squeaks": of what the order is about, behind it.
+fn tells_of_it(tail: &[Lexeme]) -> bool {
+    let who = longest_phrase(
+        tail,
+        &[
+            "it",
+            "he",
+            "she",
+            "they",
+            "the first one",
+            "the last one",
+            "the other one",
+            "the old one",
+            "the nearest one",
+        ],
+    );
+    let Some(rest) = who.and_then(|words| tail.get(words..)) else { return false };
+    let says = rest.first().map_or("", word_of);
+    let present =
+        asides::is_finite(says) || ["needs", "need"].contains(&says) || says.len() > 3 && says.ends_with('s');
+    present
+        && longest_phrase(tail, &["it"]).is_none_or(|_| says != "is")
+        && !rest.iter().skip(1).any(|lexeme| {
+            longest_phrase(std::slice::from_ref(lexeme), GUARDS).is_some()
+                || category(std::slice::from_ref(lexeme)).is_some()
+        })
 }
 
 /// The sentence without the parts between two marks that say nothing wherever they stand; none if there is no such part.
@@ -216,7 +253,7 @@ mod tests {
             ("Lovely little place, this. Go to the cottage", "go to the cottage"),
             ("Right, let's be off. Get into the car", "get into the car"),
             ("Thanks for earlier! Sit in the chair", "sit in the chair"),
-            ("Kids leave them everywhere, don't they. Point at both scooters", "point at both scooters"),
+            ("Kids leave them everywhere, you know. Point at both scooters", "point at both scooters"),
         ] {
             assert_eq!(order(said), left, "{said}");
         }

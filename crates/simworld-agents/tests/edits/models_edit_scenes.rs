@@ -63,31 +63,32 @@ fn an_answer_speaks_of_junctions_of_sides_of_streets_and_of_what_it_makes_itself
     let before = city.world.clone();
     let me = city.me;
     let answer = r#"{"cannot": "", "edits": [
-        {"do": "add", "asset": "table", "color": "as_it_is", "name": "Anna's table", "count": 1, "percent": 0, "height": 110,
+        {"do": "add", "asset": "picnic_table", "color": "as_it_is", "name": "Anna's table", "count": 1, "percent": 0, "height": 110,
             "places": [{"is": "at_junction", "junction": "Oak Street and Station Road"}]},
-        {"do": "add", "asset": "chair", "color": "as_it_is", "name": "", "count": 1, "percent": 100, "height": 0,
+        {"do": "add", "asset": "street_musician", "color": "as_it_is", "name": "", "count": 1, "percent": 100, "height": 0,
             "places": [{"is": "near", "of": "new1"}]},
-        {"do": "add", "asset": "bench", "color": "as_it_is", "name": "", "count": 1, "percent": 100, "height": 0,
+        {"do": "add", "asset": "street_lamp", "color": "as_it_is", "name": "", "count": 1, "percent": 100, "height": 0,
             "places": [{"is": "along_street", "streets": ["Oak Street"]},
                 {"is": "on_side_of_street", "streets": ["Oak Street"], "side": "north"}]},
         {"do": "close_streets", "streets": ["Oak Street from Harbour Road to Station Road"]},
         {"do": "tell", "words": "the table is as high as a bar"},
         {"do": "face", "things": ["new2"], "towards": "me"}]}"#;
     let (model, asked) = answering(&[answer]);
-    let words =
-        format!("{STRANGE}, say, along Oak Street and Station Road, with a table or a chair and a bench");
+    let words = format!(
+        "{STRANGE}, say, along Oak Street and Station Road, with a picnic table, a street musician and a street lamp"
+    );
     let done = editor(&city, model)
         .say(&words, &mut city.world)
         .unwrap_or_else(|error| panic!("{error}: {}", text(&asked.last(), 1)));
-    let [table, chair, bench] = done.made[..] else { panic!("{:?}", done.made) };
+    let [table, musician, lamp] = done.made[..] else { panic!("{:?}", done.made) };
     let thing = |id| city.world.entity(id).unwrap();
     assert!((thing(table).info.shape.size().z - 1.1).abs() < 1e-9);
     assert_eq!(thing(table).info.name.as_deref(), Some("Anna's table"));
     assert!((thing(table).planar() - Point2::new(100.0, 0.0)).norm() < 25.0);
-    assert!((thing(chair).planar() - thing(table).planar()).norm() < 35.0, "near what was made first");
-    assert!(thing(bench).planar().y > 0.0, "north of Oak Street");
-    let way = thing(me).planar() - thing(chair).planar();
-    assert!((yaw_of(thing(chair).pose) - heading(&way)).abs() < 1e-6, "it looks at who asked");
+    assert!((thing(musician).planar() - thing(table).planar()).norm() < 35.0, "near what was made first");
+    assert!(thing(lamp).planar().y > 0.0, "north of Oak Street");
+    let way = thing(me).planar() - thing(musician).planar();
+    assert!((yaw_of(thing(musician).pose) - heading(&way)).abs() < 1e-6, "it looks at who asked");
     assert_eq!(Difference::between(&before, &city.world).passages.len(), 2, "one piece, both ways");
     assert_eq!(done.answer.as_deref(), Some("the table is as high as a bar"));
 }

@@ -225,17 +225,27 @@ impl Layout<'_> {
             return false;
         }
         let network = &self.city.network;
-        network.roads.iter().all(|road| {
-            let widest =
-                road.sidewalks.into_iter().flatten().map(|walk| network.sidewalks[walk.index()].width);
-            let reach = road.left_kerb.max(road.right_kerb) + widest.fold(0.0, f64::max) + ROOM;
-            road.centerline.windows(2).all(|piece| {
-                let way = piece[1] - piece[0];
-                let middle = piece[0] + way * 0.5;
-                let strip = Vector2::new(way.norm() + 2.0 * reach, 2.0 * reach);
-                !ground_box(middle, heading(&way), strip).footprints_overlap(taken)
+        let meets = network.intersections.iter().any(|junction| {
+            // Corners are round, and dead ends end in circles that are wider than their street.
+            let reach = junction.outline.iter().map(|at| (at - junction.center).norm()).fold(0.0, f64::max);
+            let circle = junction.turning.as_ref();
+            let circle = circle.map(|circle| (circle.center, circle.radius + ROOM));
+            [Some((junction.center, reach + ROOM)), circle].into_iter().flatten().any(|(middle, radius)| {
+                ground_box(middle, 0.0, Vector2::repeat(2.0 * radius)).footprints_overlap(taken)
             })
-        })
+        });
+        !meets
+            && network.roads.iter().all(|road| {
+                let widest =
+                    road.sidewalks.into_iter().flatten().map(|walk| network.sidewalks[walk.index()].width);
+                let reach = road.left_kerb.max(road.right_kerb) + widest.fold(0.0, f64::max) + ROOM;
+                road.centerline.windows(2).all(|piece| {
+                    let way = piece[1] - piece[0];
+                    let middle = piece[0] + way * 0.5;
+                    let strip = Vector2::new(way.norm() + 2.0 * reach, 2.0 * reach);
+                    !ground_box(middle, heading(&way), strip).footprints_overlap(taken)
+                })
+            })
     }
 }
 

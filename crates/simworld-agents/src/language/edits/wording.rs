@@ -13,6 +13,8 @@ use super::words::WAYS;
 #[rustfmt::skip]
 const PLAINER: &[(&Phrases, &str)] = &[
     (&Phrases::of(&["in the direction of", "into the direction of", "in direction of", "in the general direction of"]), "towards"),
+    (&Phrases::of(&["hanging around near", "hanging about near", "hanging around by", "loitering near", "hanging around"]), "near"),
+    (&Phrases::of(&["near of", "near from", "close of", "close from"]), "near"),
     (&Phrases::of(&["with the exception of", "with exception of", "with the sole exception of", "excepting", "to the exclusion of"]), "except for"),
 ];
 /// What is said while somebody thinks.
@@ -25,10 +27,63 @@ const UNFINISHED: &Phrases = &Phrases::of(&["be", "need", "needs", "want", "want
 
 /// Puts them plainly.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
+    without_what_for(lexemes);
     plainer(lexemes);
     without_thinking(words, lexemes);
     straight_on(lexemes);
     that_is_nearest(lexemes);
+}
+
+/// "It's cold here, so add a campfire" sets no weather, and who says "I'm drawing a map, how many doors are there?" adds none.
+fn without_what_for(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const FEELS: &Phrases = &Phrases::of(&["its cold", "it is cold", "its so cold", "it is so cold", "its freezing", "it is freezing", "its chilly", "it is chilly", "its hot", "it is hot", "its so hot", "it is so hot", "its warm", "it is warm",
+        "its boiling", "it is boiling", "its really cold", "its really hot", "its very cold", "its very hot", "its dark", "it is dark", "its so dark", "it is so dark"]);
+    const HERE: &Phrases = &Phrases::of(&[
+        "here",
+        "out here",
+        "out",
+        "outside",
+        "in here",
+        "over here",
+        "there",
+        "today",
+        "tonight",
+    ]);
+    const DOING: &Phrases = &Phrases::of(&[
+        "im",
+        "i am",
+        "were",
+        "we are",
+        "ive been",
+        "i have been",
+        "ill be",
+        "i want to",
+        "i have to",
+        "i need to",
+    ]);
+    let Some(mark) = lexemes.iter().position(is_mark) else { return };
+    // A greeting before it.
+    let from = if mark <= 2 && longest_phrase(lexemes, FEELS).is_none() { mark + 1 } else { 0 };
+    let rest = lexemes.get(from..).unwrap_or_default();
+    if let Some(words) = longest_phrase(rest, FEELS) {
+        let behind = words + longest_phrase(&rest[words..], HERE).unwrap_or(0);
+        let comma = usize::from(rest.get(behind).is_some_and(is_mark));
+        if longest_phrase(&rest[behind + comma..], &["so"]).is_some() {
+            lexemes.drain(from..=from + behind + comma);
+        }
+        return;
+    }
+    let asks =
+        |at: &usize| is_mark(&lexemes[at - 1]) && longest_phrase(&lexemes[*at..], &["how many"]).is_some();
+    if longest_phrase(rest, DOING).is_some()
+        && let Some(at) = (from + 2..lexemes.len()).find(asks)
+    {
+        let said = &lexemes[from..at - 1];
+        if !said.iter().any(is_mark) {
+            lexemes.drain(from..at);
+        }
+    }
 }
 
 fn plainer(lexemes: &mut Vec<Lexeme>) {
