@@ -28,6 +28,8 @@ const ENOUGH: u32 = 16;
 const HAND: f64 = 0.1;
 /// Before a door there is room for a person, m.
 const DOORWAY: f64 = 0.8;
+/// Where one stands to enter is so far off the wall at the most, m: on the sidewalk before a house.
+const FOREGROUND: f64 = 6.0;
 
 /// Finds places in a scene.
 pub(super) struct Placer<'a> {
@@ -220,7 +222,7 @@ pub(super) fn doorway(solid: &Solid, door: Point3) -> Solid {
 
 /// The buildings before whose doors a solid would stand.
 pub(super) fn doors_before(scene: &dyn Scene, solid: &Solid, besides: &[EntityId]) -> Vec<EntityId> {
-    let bounds = solid.inflated(HAND).bounds().inflated(DOORWAY);
+    let bounds = solid.inflated(HAND).bounds().inflated(DOORWAY + FOREGROUND);
     let region = Aabb { min: Point3::new(bounds.min.x, bounds.min.y, solid.base()), ..bounds };
     let mut blocked = Vec::new();
     let _ = scene.visit(&region, &mut |other| {

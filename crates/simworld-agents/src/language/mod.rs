@@ -226,7 +226,12 @@ impl GrammarPlanner {
                 return Err(refused);
             }
             let heard = hearing::hear(words, me.info.name.as_deref());
-            let orders = told_otherwise(&heard, names).into_iter();
+            let missing = unknown::missing(&refused);
+            // What the order itself speaks of is missed by it.
+            let is_named = |order: &Vec<lexer::Lexeme>| {
+                order.iter().any(|lexeme| missing.as_deref() == Some(lexer::word_of(lexeme)))
+            };
+            let orders = told_otherwise(&heard, names).into_iter().filter(|order| !is_named(order));
             let mut plans = orders.map(|told| drafted(&read(words, told, names, &view)?, view.clone(), me));
             plans.find_map(Result::ok).ok_or(refused)
         })

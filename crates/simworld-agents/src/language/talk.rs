@@ -81,7 +81,9 @@ pub(super) fn without_tail<'a>(lexemes: &'a [Lexeme], names: &Names<'_>) -> Opti
     let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme))? + 1;
     let mark = lexemes[..end].iter().rposition(is_mark).filter(|mark| *mark > 1)?;
     let (order, tail) = (&lexemes[..mark], &lexemes[mark + 1..end]);
-    let told = tail.len() > 2 && (is_talk(tail, order, names) || tells_of_it(tail));
+    // "Three pretzels, two breads and a rose" is a list.
+    let lists = (0..tail.len()).any(|at| names.goods(&tail[at..]).is_some());
+    let told = tail.len() > 2 && !lists && (is_talk(tail, order, names) || tells_of_it(tail));
     told.then_some(order)
 }
 

@@ -14,7 +14,12 @@ use super::words::WAYS;
 const PLAINER: &[(&Phrases, &str)] = &[
     (&Phrases::of(&["in the direction of", "into the direction of", "in direction of", "in the general direction of"]), "towards"),
     (&Phrases::of(&["hanging around near", "hanging about near", "hanging around by", "loitering near", "hanging around"]), "near"),
-    (&Phrases::of(&["near of", "near from", "close of", "close from"]), "near"),
+    (&Phrases::of(&["in the near of", "in near of", "near of", "near from", "close of", "close from"]), "near"),
+    (&Phrases::of(&["wouldnt look half bad", "would not look half bad", "wouldnt look bad", "wouldnt go amiss", "would not go amiss"]), "would look nice"),
+    (&Phrases::of(&["nothing would make me happier than seeing", "nothing would make me happier than", "nothing would please me more than seeing", "nothing would please me more than"]), "add"),
+    (&Phrases::of(&["it has here", "has it here", "there has here", "it gives here", "gives it here"]), "are there"),
+    (&Phrases::of(&["i would want", "we would want"]), "i want"),
+    (&Phrases::of(&["if it makes you no trouble", "if it makes no trouble", "if it is no trouble for you"]), "please"),
     (&Phrases::of(&["with the exception of", "with exception of", "with the sole exception of", "excepting", "to the exclusion of"]), "except for"),
 ];
 /// What is said while somebody thinks.
@@ -32,6 +37,25 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     without_thinking(words, lexemes);
     straight_on(lexemes);
     that_is_nearest(lexemes);
+    of_the_colour(lexemes);
+}
+
+/// "Make the bin of the colour orange": make it orange.
+fn of_the_colour(lexemes: &mut Vec<Lexeme>) {
+    const OF: &Phrases = &Phrases::of(&[
+        "of the color",
+        "of the colour",
+        "in the color",
+        "in the colour",
+        "of color",
+        "of colour",
+    ]);
+    let makes = lexemes.iter().position(|lexeme| lexeme.token == Token::Word("make".to_owned()));
+    let Some(from) = makes else { return };
+    if let Some(at) = (from + 2..lexemes.len()).find(|at| longest_phrase(&lexemes[*at..], OF).is_some()) {
+        let words = longest_phrase(&lexemes[at..], OF).unwrap_or(0);
+        lexemes.drain(at..at + words);
+    }
 }
 
 /// "It's cold here, so add a campfire" sets no weather, and who says "I'm drawing a map, how many doors are there?" adds none.
