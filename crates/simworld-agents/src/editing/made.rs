@@ -75,7 +75,9 @@ impl Edit {
             | Self::List { things } => things.iter_mut().for_each(change),
             Self::Move { things, stands } => {
                 things.iter_mut().for_each(&mut *change);
-                stands.iter_mut().for_each(|stand| stand.each_id(change));
+                for stand in stands.iter_mut() {
+                    stand.each_id(change);
+                }
             }
             Self::Face { things, towards } => {
                 things.iter_mut().for_each(&mut *change);
@@ -87,7 +89,9 @@ impl Edit {
             }
             Self::Copy { thing, stands, .. } => {
                 change(thing);
-                stands.iter_mut().for_each(|stand| stand.each_id(change));
+                for stand in stands.iter_mut() {
+                    stand.each_id(change);
+                }
             }
             Self::Name { thing, .. } | Self::Describe { thing } => change(thing),
             Self::SetEnvironment(_) | Self::SetPassage { .. } | Self::Leave { .. } => {}

@@ -201,7 +201,7 @@ impl Planner for GrammarPlanner {
                     hint,
                 });
             }
-            Intent::Words(words) => return Self::meant(words, &names, view, &me),
+            Intent::Words(words) => return Self::meant(words, &names, &view, &me),
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
             Intent::Plan(_) | Intent::Act(_) => return Ok(intent.ready().unwrap_or_default()),
         };
@@ -219,8 +219,8 @@ fn drafted(clauses: &[clause::Clause], view: View<'_>, me: &EntityRef<'_>) -> Re
 impl GrammarPlanner {
     /// The plan that words mean. Where something is not here of which only the talk before an order tells ("the forecast looked awful"), the
     /// order is what is meant.
-    fn meant(words: &str, names: &Names<'_>, view: View<'_>, me: &EntityRef<'_>) -> Result<Plan, PlanError> {
-        let plan = |words: &str| drafted(&Self::said(words, names, &view, me)?, view.clone(), me);
+    fn meant(words: &str, names: &Names<'_>, view: &View<'_>, me: &EntityRef<'_>) -> Result<Plan, PlanError> {
+        let plan = |words: &str| drafted(&Self::said(words, names, view, me)?, view.clone(), me);
         plan(words).or_else(|refused| {
             if !matches!(refused, PlanError::NotFound { .. }) {
                 return Err(refused);
@@ -232,7 +232,7 @@ impl GrammarPlanner {
                 order.iter().any(|lexeme| missing.as_deref() == Some(lexer::word_of(lexeme)))
             };
             let orders = told_otherwise(&heard, names).into_iter().filter(|order| !is_named(order));
-            let mut plans = orders.map(|told| drafted(&read(words, told, names, &view)?, view.clone(), me));
+            let mut plans = orders.map(|told| drafted(&read(words, told, names, view)?, view.clone(), me));
             plans.find_map(Result::ok).ok_or(refused)
         })
     }

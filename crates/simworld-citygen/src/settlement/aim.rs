@@ -50,7 +50,7 @@ impl Aim {
 
     /// How far a point is from there, m.
     pub(super) fn cost(&self, point: Point2) -> f64 {
-        let beside = self.from_beside(point);
+        let beside = self.way_to_beside(point);
         match (self.at, beside) {
             (Whereabouts::Anywhere, None) => (point - self.otherwise).norm(),
             (at, None) => self.extent.away(at, point),
@@ -70,12 +70,12 @@ impl Aim {
             Some(Beside::Shore(_)) => BESIDE.max(ALONG_WATER * self.extent.radius),
             _ => BESIDE,
         };
-        self.from_beside(point).filter(|far| *far > most)
+        self.way_to_beside(point).filter(|far| *far > most)
     }
 
-    fn from_beside(&self, point: Point2) -> Option<f64> {
+    fn way_to_beside(&self, point: Point2) -> Option<f64> {
         match self.beside.as_ref()? {
-            Beside::Shore(heading) => Some(self.extent.from_side(*heading, point)),
+            Beside::Shore(heading) => Some(self.extent.way_to_side(*heading, point)),
             Beside::Things(things) => {
                 let away = things.iter().map(|thing| (thing - point).norm());
                 Some(away.fold(f64::INFINITY, f64::min)).filter(|far| far.is_finite())

@@ -63,7 +63,7 @@ impl Extent {
     }
 
     /// How far a point is from the side of the place that lies in a direction, m.
-    pub(super) fn from_side(&self, towards: f64, point: Point2) -> f64 {
+    pub(super) fn way_to_side(&self, towards: f64, point: Point2) -> f64 {
         (self.radius - (point - self.heart).dot(&direction(towards))).max(0.0)
     }
 }
@@ -93,7 +93,7 @@ mod tests {
         assert!(extent.holds(Whereabouts::East, east) && !extent.holds(Whereabouts::West, east));
         assert!(extent.holds(Whereabouts::Outskirts, east) && !extent.holds(Whereabouts::Middle, east));
         assert!(extent.away(Whereabouts::East, east) < extent.away(Whereabouts::North, east));
-        assert!(extent.from_side(0.0, east) < extent.from_side(PI, east));
+        assert!(extent.way_to_side(0.0, east) < extent.way_to_side(PI, east));
         assert_eq!(side_of(&[Water::Lake, Water::River], "river"), Some(0.0));
         assert_eq!(side_of(&[Water::Lake], "harbour"), None);
     }

@@ -73,13 +73,11 @@ impl Writer<'_> {
         let distance = hundredths(distance);
         let side = compass_of(heading).or_else(|| side_of(heading, anchor, self.asked.scene));
         let of = self.anchor(anchor)?;
-        Ok(match side {
-            Some(side) => json!({ "is": "offset_to_side", "of": of, "distance": distance, "side": side }),
-            None => {
-                let degrees = simworld_core::ops::wrap_angle(heading).to_degrees().round() as i64;
-                json!({ "is": "offset", "of": of, "distance": distance, "degrees": degrees })
-            }
-        })
+        if let Some(side) = side {
+            return Ok(json!({ "is": "offset_to_side", "of": of, "distance": distance, "side": side }));
+        }
+        let degrees = simworld_core::ops::wrap_angle(heading).to_degrees().round() as i64;
+        Ok(json!({ "is": "offset", "of": of, "distance": distance, "degrees": degrees }))
     }
 
     /// A point: where something stands, so far from where the moved thing is, or by its coordinates.
