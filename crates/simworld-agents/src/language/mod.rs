@@ -308,7 +308,7 @@ fn told_otherwise(heard: &[lexer::Lexeme], names: &Names<'_>) -> Vec<Vec<lexer::
     spelling::correct(&mut corrected, names);
     let bare = talk::without_idioms(&corrected);
     let whole = bare.as_deref().unwrap_or(&corrected);
-    let mut all = Vec::new();
+    let mut all: Vec<_> = talk::with_the_name(whole, names).into_iter().collect();
     let told = std::iter::once(whole).chain(talk::without_talk(whole, names));
     for told in told.flat_map(|told| std::iter::once(told).chain(talk::without_tail(told, names))) {
         let plain = retold::retold(told, names);

@@ -36,12 +36,12 @@ const IDIOMS: &Phrases = &Phrases::of(&[
     "or so im told", "or so i am told", "or something", "or something like that", "or so i think", "i think", "i guess", "i suppose", "i believe", "i hope", "i bet", "you know", "you see", "would you believe it",
     "can you believe it", "can you imagine", "what a day", "fat fingers", "fat fingers today", "busy day", "busy day today", "long day", "big day", "big day today", "lucky me", "poor me", "poor thing", "here we are", "here we are again", "there we are",
     "first time here", "my first time here", "its my first time here", "nothing to worry about", "nothing much", "not much", "just so you know", "just saying", "no idea why", "dont know why", "i dont know why", "who knows", "who knows why", "goodness knows", "god knows",
-    "what can i say", "what can you do", "where was i", "where were we", "as usual", "as always", "of all days", "of all things", "for once", "once more", "plan for today", "plan for the day", "nothing personal", "you wouldnt believe it", "it wasnt me", "i couldnt say", "i could not say", "not again", "let me sit", "you sit", "no you sit", "already", "evening already", "night already", "lets get everyone together", "lets get everybody together", "id like you in the picture", "id like you in it", "if you dont mind", "if you do not mind", "if thats ok", "id love a lift", "id love a lift home", "silly man", "silly woman", "silly me", "isnt it", "is not it", "whatever", "make some friends", "time for tea", "thirsty work", "thirsty work this", "well roughly", "hint hint", "wink wink", "much obliged", "cheers", "ta", "that is all", "thats all",
+    "what can i say", "what can you do", "where was i", "where were we", "as usual", "as always", "of all days", "of all things", "for once", "once more", "plan for today", "plan for the day", "nothing personal", "you wouldnt believe it", "it wasnt me", "i couldnt say", "i could not say", "not again", "by the way", "poor lad", "poor lass", "poor chap", "shame on me", "typical", "phew", "me with the camera", "where did i put it", "if you were wondering", "if you must know", "in case you were wondering", "hope im not interrupting", "hope i am not interrupting", "i know youve got plenty to do", "i know you have plenty to do", "i know youre busy", "i know you are busy", "sleepyhead", "let me sit", "you sit", "no you sit", "already", "evening already", "night already", "lets get everyone together", "lets get everybody together", "id like you in the picture", "id like you in it", "if you dont mind", "if you do not mind", "if thats ok", "id love a lift", "id love a lift home", "silly man", "silly woman", "silly me", "isnt it", "is not it", "whatever", "make some friends", "time for tea", "thirsty work", "thirsty work this", "well roughly", "hint hint", "wink wink", "much obliged", "cheers", "ta", "that is all", "thats all",
 ]);
 /// With what a sentence of politeness begins, whatever follows.
 #[rustfmt::skip]
 const POLITE: &Phrases = &Phrases::of(&[
-    "sorry for", "sorry about", "sorry to", "sry for", "sorry im", "sorry i am", "sry im", "cheers for", "thanks for", "thank you for", "ta for", "apologies for", "excuse my", "excuse the", "pardon my", "pardon the", "forgive my", "forgive the",
+    "for my", "for our", "for the", "hope", "shame on", "fine day", "sorry for", "sorry about", "sorry to", "sry for", "sorry im", "sorry i am", "sry im", "cheers for", "thanks for", "thank you for", "ta for", "apologies for", "excuse my", "excuse the", "pardon my", "pardon the", "forgive my", "forgive the",
     "someone has to", "somebody has to", "lovely to see", "nice to see", "good to see", "great to see", "lovely to meet", "nice to meet", "good to meet", "happy to", "glad to", "sry typing", "sorry typing", "typing with", "typing on", "look whos", "look who is", "look what", "look at the time", "lets see if", "lets see whether", "lets see how", "lets see what", "let us see if", "let us see whether", "let us see what",
     "let us see how", "lets find out",
 ]);
@@ -76,13 +76,29 @@ pub(super) fn without_talk<'a>(
     rests.into_iter().filter(|rest| !rest.iter().all(is_mark))
 }
 
+/// The order with the name of whom the talk before it told in the place of the first pronoun: "Ben's my cousin, by the way. Go to him".
+pub(super) fn with_the_name(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
+    let end = lexemes.iter().position(|lexeme| lexeme.token == Token::Break)?;
+    let (talk, order) = (&lexemes[..end], lexemes.get(end + 1..)?);
+    let named: Vec<(usize, usize)> =
+        (0..talk.len()).filter_map(|at| Some((at, names.exact(&talk[at..])?.1))).collect();
+    let [(at, words)] = named[..] else { return None };
+    let pronoun = order.iter().position(|lexeme| ["him", "her", "it", "them"].contains(&word_of(lexeme)))?;
+    let someone_else = (0..order.len()).any(|at| names.exact(&order[at..]).is_some());
+    if someone_else || at > 1 || !is_talk(talk, order, names) {
+        return None;
+    }
+    Some([&order[..pronoun], &talk[at..at + words], &order[pronoun + 1..]].concat())
+}
+
 /// The order before a last remark: "..., the first one squeaks"; none where what stands behind the last comma is no talk.
 pub(super) fn without_tail<'a>(lexemes: &'a [Lexeme], names: &Names<'_>) -> Option<&'a [Lexeme]> {
     let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme))? + 1;
     let mark = lexemes[..end].iter().rposition(is_mark).filter(|mark| *mark > 1)?;
     let (order, tail) = (&lexemes[..mark], &lexemes[mark + 1..end]);
-    // "Three pretzels, two breads and a rose" is a list.
-    let lists = (0..tail.len()).any(|at| names.goods(&tail[at..]).is_some());
+    // "Three pretzels, two breads and a rose" is a list, and "in that case take the red one" an order.
+    let lists =
+        (0..tail.len()).any(|at| names.goods(&tail[at..]).is_some() || longest_verb(&tail[at..]).is_some());
     let told = tail.len() > 2 && !lists && (is_talk(tail, order, names) || tells_of_it(tail));
     told.then_some(order)
 }
@@ -150,16 +166,24 @@ fn is_filled(mut said: &[Lexeme]) -> bool {
 fn is_talk(sentence: &[Lexeme], order: &[Lexeme], names: &Names<'_>) -> bool {
     let parts = sentence.split(|lexeme| lexeme.token == Token::Comma).map(greeted);
     let mut parts = parts.filter(|part| !says_nothing(part) && !is_filled(part)).peekable();
-    let tells =
-        parts.peek().is_none_or(|first| longest_phrase(first, POLITE).is_some() || tells_something(first));
+    // Of words without a subject only those that name nothing here are talk.
+    let named = |rest: &[Lexeme]| {
+        category(rest).is_some() || names.exact(rest).is_some() || names.goods(rest).is_some()
+    };
+    let asks = |rest: &[Lexeme]| named(rest) || longest_verb(rest).is_some();
+    let idle = |said: &[Lexeme]| is_fragment(said) && !(0..said.len()).any(|at| asks(&said[at..]));
+    let tells = parts
+        .peek()
+        .is_none_or(|first| longest_phrase(first, POLITE).is_some() || tells_something(first) || idle(first));
     tells && parts.all(asks_for_nothing) && !is_about(sentence, order, names)
 }
 
 /// The words without greetings and sounds before them.
 fn greeted(mut said: &[Lexeme]) -> &[Lexeme] {
     const SOUNDS: &[&str] = &[
-        "um", "oh", "oof", "ah", "hm", "hmm", "well", "okay", "ok", "right", "hiya", "hi", "hello", "hey",
-        "helo", "evening", "morning", "again", "anyway", "gosh", "wow", "so", "yeah", "yes", "there", "and",
+        "cor", "soz", "ahoy", "uh", "er", "erm", "um", "oh", "oof", "ah", "hm", "hmm", "well", "okay", "ok",
+        "right", "hiya", "hi", "hello", "hey", "helo", "evening", "morning", "again", "anyway", "gosh",
+        "wow", "so", "yeah", "yes", "there", "and",
     ];
     while let Some(first) = said.first()
         && SOUNDS.contains(&word_of(first))
@@ -190,6 +214,21 @@ fn tells_something(said: &[Lexeme]) -> bool {
         && ["should", "must", "might", "ought", "shall", "may"].contains(&second);
     judged || told || may_be || asides::states_something(said)
 }
+
+/// "Lost my glasses again", "fine day for it", "been on my feet since six": words that begin with nothing that one could be told to do.
+fn is_fragment(said: &[Lexeme]) -> bool {
+    #[rustfmt::skip]
+    const ASKS: &[&str] = &["where", "who", "whos", "whom", "whose", "what", "which", "why", "how", "when", "is", "are", "was", "were", "does", "did", "do", "has", "have", "can", "could", "will", "would"];
+    let first = word_of(&said[0]);
+    !first.is_empty()
+        && said.len() > 1
+        && said[0].lemma.is_none()
+        && !ASKS.contains(&first)
+        && !BIDDEN.split_whitespace().any(|verb| verb == first)
+}
+
+/// What people are told to do that nobody here can, in their plain form: whoever begins so orders something.
+const BIDDEN: &str = include_str!("bidden.txt");
 
 /// Whether no part of what is said is an order, forbids or says when.
 fn asks_for_nothing(said: &[Lexeme]) -> bool {

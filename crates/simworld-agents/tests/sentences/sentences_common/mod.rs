@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 29] = [
+const SETS: [&str; 30] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -63,6 +63,7 @@ const SETS: [&str; 29] = [
     "twentyseventh",
     "twentyeighth",
     "twentyninth",
+    "thirtieth",
 ];
 
 /// One thing that is said, and what it means.
