@@ -56,7 +56,7 @@ fn asked_in(city: &str) -> Vec<Asked> {
 }
 
 /// Of the older sets so many sentences are a sample of one.
-const SAMPLED: usize = 5;
+const SAMPLED: usize = 3;
 /// So many sets of a city, the newest, are left whole by a sample.
 const NEWEST: usize = 2;
 
