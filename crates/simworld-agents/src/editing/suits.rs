@@ -20,6 +20,9 @@ const LEAST: f64 = 0.4;
 /// At the kerb of a street vehicles stand so well: on a strip for them better, and on other paved ground worse.
 pub(super) const KERB: f64 = 0.85;
 
+/// At a kerb that has a cycle lane before it nobody should stand, but a vehicle does so rather than on a lawn.
+const ON_CYCLE_LANE: LandFit = LandFit { land: Land::CycleLane, suits: 0.35, astray: true };
+
 /// The ground on which a thing is to stand.
 pub(super) struct Site<'a> {
     pub(super) scene: &'a dyn Scene,
@@ -68,10 +71,12 @@ impl Site<'_> {
                 return Err("too little of the sidewalk would be left to walk on");
             }
         }
-        let is_between_kerbs = |land: &Land| matches!(land, Land::Parking | Land::Carriageway);
+        let is_between_kerbs =
+            |land: &Land| matches!(land, Land::Parking | Land::Carriageway | Land::CycleLane);
         let parked = streets.filter(|_| parks(kind) && lands.iter().all(is_between_kerbs));
         if let Some(land) = parked.and_then(|streets| streets.parked(&roads, solid)) {
-            return Ok(fit(kind, land));
+            let blocks_cycles = land == Land::Kerbside && lands.contains(&Land::CycleLane);
+            return Ok(if blocks_cycles { ON_CYCLE_LANE } else { fit(kind, land) });
         }
         let fits = lands.into_iter().map(|land| fit(kind, land));
         let worst = fits.reduce(|worst, next| if next.suits < worst.suits { next } else { worst });
