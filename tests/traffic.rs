@@ -97,15 +97,18 @@ pub fn touching(traffic: &Traffic, bodies: &mut Vec<Body>) -> Vec<(u32, u32)> {
         levels[id as usize] = network.roads[network.lanes[lane].road.index()].level;
     }
     bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    let solid = |body: &Body| -> Obb { body.shape.obb(&body.pose) };
+    let solids: Vec<Obb> = bodies.iter().map(|body| body.shape.obb(&body.pose)).collect();
     let mut pairs = Vec::new();
     for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 19.0)
-        {
+        let x = a.pose.translation.x;
+        let ahead =
+            (index + 1..bodies.len()).take_while(|other| bodies[*other].pose.translation.x - x < 19.0);
+        for other in ahead {
+            let b = &bodies[other];
             let near = (b.pose.translation.y - a.pose.translation.y).abs() < 19.0;
             if near
                 && levels[a.id as usize] == levels[b.id as usize]
-                && solid(a).footprints_overlap(&solid(b))
+                && solids[index].footprints_overlap(&solids[other])
             {
                 pairs.push((a.id, b.id));
             }

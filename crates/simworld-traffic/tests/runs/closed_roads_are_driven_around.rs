@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use simworld_core::geometry::Obb;
 use simworld_core::id::{LaneId, RoadId};
 use simworld_core::net::{CrossSection, LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
-use simworld_traffic::{
-    Body, Closed, Closure, Flow, Leg, NoWay, Route, Router, Traffic, TrafficConfig, TripEnd,
-};
+use simworld_traffic::{Closed, Closure, Flow, Leg, NoWay, Route, Router, Traffic, TrafficConfig, TripEnd};
+
+use crate::contacts::assert_apart;
 
 fn grid(columns: usize, lanes: u8) -> Arc<RoadNetwork> {
     let mut plan = StreetPlan::grid(columns, columns, 150.0);
@@ -21,18 +20,6 @@ fn grid(columns: usize, lanes: u8) -> Arc<RoadNetwork> {
 
 fn config(vehicles: u32, no_way: NoWay) -> TrafficConfig {
     TrafficConfig { vehicles, pedestrians: 0, no_way, ..TrafficConfig::default() }
-}
-
-fn assert_apart(traffic: &Traffic, step: usize) {
-    let solid = |body: &Body| -> Obb { body.shape.obb(&body.pose) };
-    let mut bodies: Vec<Body> = traffic.vehicles().collect();
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
-        {
-            assert!(!solid(a).footprints_overlap(&solid(b)), "{a:?} touches {b:?} at step {step}");
-        }
-    }
 }
 
 fn legs(network: &RoadNetwork) -> Vec<Leg> {

@@ -3,6 +3,8 @@
 
 mod assignment_finds_equilibria;
 mod closed_roads_are_driven_around;
+#[path = "../shared/contacts.rs"]
+mod contacts;
 mod damaged_snapshots;
 mod demand_departs_as_asked;
 mod hierarchy_is_as_quick;

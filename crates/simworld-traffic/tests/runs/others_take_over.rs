@@ -14,9 +14,11 @@ use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_traffic::{
-    AtDestination, Body, Control, ControlError, Drive, LaneWish, Leg, Stroll, Traffic, TrafficConfig,
+    AtDestination, Control, ControlError, Drive, LaneWish, Leg, Stroll, Traffic, TrafficConfig,
     TrafficDynamics,
 };
+
+use crate::contacts::touching;
 
 fn grid(size: usize, lanes: u8) -> Arc<RoadNetwork> {
     let mut plan = StreetPlan::grid(size, size, 200.0);
@@ -27,18 +29,6 @@ fn grid(size: usize, lanes: u8) -> Arc<RoadNetwork> {
 fn traffic(lanes: u8, vehicles: u32, pedestrians: u32) -> Traffic {
     let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
     Traffic::new(grid(3, lanes), &config, Seed(21)).expect("the settings are in range")
-}
-
-/// Pairs of vehicles that touch.
-fn collisions(traffic: &Traffic) -> usize {
-    let mut bodies: Vec<Body> = traffic.vehicles().collect();
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    let touches = |a: &Body, b: &Body| a.shape.obb(&a.pose).footprints_overlap(&b.shape.obb(&b.pose));
-    let near = |a: &Body, b: &Body| b.pose.translation.x - a.pose.translation.x < 14.0;
-    let pairs = bodies.iter().enumerate().flat_map(|(index, a)| {
-        bodies[index + 1..].iter().take_while(move |b| near(a, b)).map(move |b| (a, b))
-    });
-    pairs.filter(|(a, b)| touches(a, b)).count()
 }
 
 fn track(traffic: &Traffic, id: u32) -> (u32, f64, f64) {
@@ -59,7 +49,7 @@ fn who_brakes_makes_a_queue_and_given_back_drives_on() {
     traffic.drive(id, Drive { acceleration: -3.0, ..Drive::default() }).unwrap();
     for _ in 0..900 {
         traffic.step(0.1);
-        assert_eq!(collisions(&traffic), 0);
+        assert_eq!(touching(&traffic), []);
     }
     let (own, s, v) = track(&traffic, id);
     assert_eq!((own, v), (lane, 0.0), "it stands where it was told to");
@@ -70,7 +60,7 @@ fn who_brakes_makes_a_queue_and_given_back_drives_on() {
     let start = planar(&traffic.vehicle(id).unwrap().pose);
     for _ in 0..600 {
         traffic.step(0.1);
-        assert_eq!(collisions(&traffic), 0);
+        assert_eq!(touching(&traffic), []);
     }
     let gone = (planar(&traffic.vehicle(id).unwrap().pose) - start).norm();
     assert!(gone > 50.0, "it drove {gone} m");
@@ -102,7 +92,7 @@ fn reckless(
         }
         let aspects = traffic.signals().to_vec();
         traffic.step(0.1);
-        assert_eq!(collisions(&traffic), 0, "vehicles touch at step {step} of seed {seed}");
+        assert_eq!(touching(&traffic), [], "vehicles touch at step {step} of seed {seed}");
         for (id, track, ..) in traffic.stations() {
             let old = std::mem::replace(&mut before[id as usize], track);
             if track >= lanes && old < lanes {
@@ -215,7 +205,7 @@ fn a_free_body_is_followed_and_joins_its_lane_again() {
         let twist = Twist { linear: (direction(yaw) * 1.5).push(0.0), angular: Vector3::zeros() };
         traffic.place(id, pose_facing(Point3::new(at.x, at.y, 0.0), yaw), twist).unwrap();
         traffic.step(0.1);
-        assert_eq!(collisions(&traffic), 0, "at step {step}");
+        assert_eq!(touching(&traffic), [], "at step {step}");
         followed |= traffic.stations().any(|(_, track, s, v)| {
             track == lane.0 && s < station && s > station - 12.0 && v > 0.5 && v < 2.5
         });
@@ -230,7 +220,7 @@ fn a_free_body_is_followed_and_joins_its_lane_again() {
     assert!((after - at).norm() < 0.3, "it joins where it is, not {} m away", (after - at).norm());
     for _ in 0..600 {
         traffic.step(0.1);
-        assert_eq!(collisions(&traffic), 0);
+        assert_eq!(touching(&traffic), []);
     }
     assert!((planar(&traffic.vehicle(id).unwrap().pose) - after).norm() > 30.0, "it drives on");
 }
@@ -248,7 +238,7 @@ fn a_body_that_stands_across_a_lane_stops_everybody_behind_it() {
         traffic.stations().filter(|at| at.1 == lane.0 && at.2 > station).map(|at| at.0).collect();
     for step in 0..1200 {
         traffic.step(0.1);
-        assert_eq!(collisions(&traffic), 0, "at step {step}");
+        assert_eq!(touching(&traffic), [], "at step {step}");
         let beyond =
             traffic.stations().find(|at| at.1 == lane.0 && at.2 > station && !before.contains(&at.0));
         assert!(beyond.is_none(), "{beyond:?} passed it at step {step}");

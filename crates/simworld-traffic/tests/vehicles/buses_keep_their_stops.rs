@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use simworld_core::geometry::Obb;
 use simworld_core::hash::StateHash;
 use simworld_core::id::{LaneId, RoadId};
 use simworld_core::net::{CrossSection, LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
@@ -12,9 +11,11 @@ use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{
-    Body, Closed, Closure, Flow, Leg, Line, Route, Router, Stop, Traffic, TrafficConfig, TrafficDynamics,
+    Closed, Closure, Flow, Leg, Line, Route, Router, Stop, Traffic, TrafficConfig, TrafficDynamics,
     TrafficError, TripEnd,
 };
+
+use crate::contacts::assert_apart;
 
 fn crossroads(lanes: u8) -> Arc<RoadNetwork> {
     let mut plan = StreetPlan::crossroads(200.0);
@@ -28,18 +29,6 @@ fn across() -> [Leg; 2] {
 
 fn empty() -> TrafficConfig {
     TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() }
-}
-
-fn assert_apart(traffic: &Traffic, step: usize) {
-    let solid = |body: &Body| -> Obb { body.shape.obb(&body.pose) };
-    let mut bodies: Vec<Body> = traffic.vehicles().collect();
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
-        {
-            assert!(!solid(a).footprints_overlap(&solid(b)), "{a:?} touches {b:?} at step {step}");
-        }
-    }
 }
 
 #[test]

@@ -7,6 +7,8 @@ use simworld_core::net::{Aspect, CrossSection, DrivingSide, NetworkConfig, RoadN
 use simworld_core::seed::Seed;
 use simworld_traffic::{Body, Traffic, TrafficConfig};
 
+use crate::contacts::assert_apart;
+
 fn grid(columns: usize, vehicles: u32, pedestrians: u32) -> Traffic {
     let plan = StreetPlan::grid(columns, columns, 130.0);
     let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network");
@@ -16,19 +18,6 @@ fn grid(columns: usize, vehicles: u32, pedestrians: u32) -> Traffic {
 
 fn solid(body: &Body) -> Obb {
     body.shape.obb(&body.pose)
-}
-
-/// Pairs of vehicles whose bodies overlap, by exact rectangles over a sweep along x.
-fn collisions(bodies: &mut [Body]) -> usize {
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    let mut count = 0;
-    for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
-        {
-            count += usize::from(solid(a).footprints_overlap(&solid(b)));
-        }
-    }
-    count
 }
 
 /// Drives on, and sees to it that nobody touches anybody and nobody enters on red.
@@ -48,9 +37,9 @@ fn drive(traffic: &mut Traffic, steps: u32) {
                 assert!(!red, "vehicle {id} entered on red at step {step}");
             }
         }
+        assert_apart(traffic, step as usize);
         bodies.clear();
         bodies.extend(traffic.vehicles());
-        assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
         for walker in traffic.pedestrians().iter().filter(|walker| walker.crossing().is_some()) {
             let at = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), 0.0);
             let person = simworld_core::scene::Shape::Capsule { radius: 0.2, height: 1.8 }.obb(&at);
@@ -148,12 +137,9 @@ fn priority_junctions_are_safe_as_well() {
     let network = RoadNetwork::derive(&StreetPlan::grid(4, 4, 120.0), &config).unwrap();
     let traffic_config = TrafficConfig { vehicles: 70, pedestrians: 40, ..TrafficConfig::default() };
     let mut traffic = Traffic::new(Arc::new(network), &traffic_config, Seed(5)).unwrap();
-    let mut bodies = Vec::new();
     for step in 0..4000 {
         traffic.step(0.1);
-        bodies.clear();
-        bodies.extend(traffic.vehicles());
-        assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
+        assert_apart(&traffic, step);
     }
     assert!(traffic.counters().crossings > 70 * 400 / 60, "{:?}", traffic.counters());
 }

@@ -3,28 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use simworld_core::geometry::Obb;
 use simworld_core::id::RoadId;
 use simworld_core::net::{CrossSection, LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
-use simworld_traffic::{Body, Flow, Leg, Router, Traffic, TrafficConfig, TripEnd};
+use simworld_traffic::{Flow, Leg, Router, Traffic, TrafficConfig, TripEnd};
 
-fn solid(body: &Body) -> Obb {
-    body.shape.obb(&body.pose)
-}
-
-fn assert_apart(traffic: &Traffic, bodies: &mut Vec<Body>, step: usize) {
-    bodies.clear();
-    bodies.extend(traffic.vehicles());
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
-        {
-            assert!(!solid(a).footprints_overlap(&solid(b)), "{a:?} touches {b:?} at step {step}");
-        }
-    }
-}
+use crate::contacts::assert_apart;
 
 fn avenues(columns: usize, rows: usize, lanes: u8) -> Arc<RoadNetwork> {
     let mut plan = StreetPlan::grid(columns, rows, 200.0);
@@ -42,10 +27,9 @@ fn ten_thousand_steps_on_avenues_without_a_collision() {
         let mut config = TrafficConfig { vehicles, pedestrians: 60, ..TrafficConfig::default() };
         config.type_mut(VehicleKind::Bus).unwrap().share = 0.08;
         let mut traffic = Traffic::new(avenues(3, 3, lanes), &config, Seed(3 + seed)).unwrap();
-        let mut bodies = Vec::new();
         for step in 0..10_000 {
             traffic.step(0.1);
-            assert_apart(&traffic, &mut bodies, step);
+            assert_apart(&traffic, step);
         }
         let counters = traffic.counters();
         assert_eq!(counters.lane_changes > 300, lanes > 1, "{counters:?}");
@@ -71,10 +55,10 @@ fn whoever_has_a_route_drives_it_to_its_end() {
         traffic.add_flow(Flow { until: 1200.0, ..Flow::new(route, 60.0) }).unwrap();
     }
     assert!(lengths.len() > 5);
-    let (mut arrived, mut bodies) = (0, Vec::new());
+    let mut arrived = 0;
     for step in 0..16_000 {
         traffic.step(0.1);
-        assert_apart(&traffic, &mut bodies, step);
+        assert_apart(&traffic, step);
         for trip in traffic.ended() {
             assert_eq!(trip.end, TripEnd::Arrived);
             assert!(trip.delay() > -1.0, "faster than free: {trip:?}");

@@ -3,26 +3,15 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use simworld_core::geometry::Obb;
 use simworld_core::id::{ConnectionId, LaneId, RoadId};
 use simworld_core::net::{
     CrossSection, LaneDirection, LaneKind, LaneSpec, NetworkConfig, RoadNetwork, StreetPlan,
 };
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
-use simworld_traffic::{Body, Leg, Router, Traffic, TrafficConfig, TrafficError};
+use simworld_traffic::{Leg, Router, Traffic, TrafficConfig, TrafficError};
 
-fn assert_apart(traffic: &Traffic, step: usize) {
-    let solid = |body: &Body| -> Obb { body.shape.obb(&body.pose) };
-    let mut bodies: Vec<Body> = traffic.vehicles().collect();
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
-        {
-            assert!(!solid(a).footprints_overlap(&solid(b)), "{a:?} touches {b:?} at step {step}");
-        }
-    }
-}
+use crate::contacts::assert_apart;
 
 fn grid(section: CrossSection) -> Arc<RoadNetwork> {
     let mut plan = StreetPlan::grid(3, 3, 160.0);

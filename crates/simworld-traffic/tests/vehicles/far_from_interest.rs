@@ -11,6 +11,8 @@ use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_traffic::{Body, Drive, Interest, Traffic, TrafficConfig, TrafficDynamics, TrafficError};
 
+use crate::contacts::assert_apart;
+
 fn grid(interest: Option<Vec<Interest>>) -> Traffic {
     grid_of(5, 240, interest)
 }
@@ -26,18 +28,6 @@ fn grid_of(junctions: usize, vehicles: u32, interest: Option<Vec<Interest>>) -> 
     traffic
 }
 
-/// Pairs of vehicles whose bodies overlap, by exact rectangles over a sweep along x.
-fn collisions(bodies: &mut [Body]) -> usize {
-    let solid = |body: &Body| body.shape.obb(&body.pose);
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    let near = |a: &Body, b: &Body| b.pose.translation.x - a.pose.translation.x < 14.0;
-    let touching = |(index, a): (usize, &Body)| {
-        let after = bodies[index + 1..].iter().take_while(|b| near(a, b));
-        after.filter(|b| solid(a).footprints_overlap(&solid(b))).count()
-    };
-    bodies.iter().enumerate().map(touching).sum()
-}
-
 /// Where the vehicles are, by number.
 fn places(traffic: &Traffic) -> Vec<Point2> {
     let mut bodies: Vec<Body> = traffic.vehicles().collect();
@@ -50,7 +40,7 @@ fn drive(traffic: &mut Traffic, steps: u32) -> f64 {
     let network = Arc::clone(traffic.network());
     let lanes = network.lanes.len() as u32;
     let mut before = vec![u32::MAX; traffic.placed().vehicles as usize];
-    let (mut bodies, mut way) = (Vec::new(), 0.0);
+    let mut way = 0.0;
     let mut places = places(traffic);
     for step in 0..steps {
         let aspects = traffic.signals().to_vec();
@@ -69,9 +59,7 @@ fn drive(traffic: &mut Traffic, steps: u32) -> f64 {
             places = now;
         }
         if step % 3 == 0 {
-            bodies.clear();
-            bodies.extend(traffic.vehicles());
-            assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
+            assert_apart(traffic, step as usize);
         }
     }
     way

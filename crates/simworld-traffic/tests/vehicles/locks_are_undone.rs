@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::{Obb, Point2};
+use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{CrossSection, LaneDirection, NetworkConfig, RoadNetwork, Street, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
-use simworld_traffic::{Body, Leg, Route, Traffic, TrafficConfig};
+use simworld_traffic::{Leg, Route, Traffic, TrafficConfig};
 
 use crate::at_once::at_once;
+use crate::contacts::assert_apart;
 
 /// One step: nobody touches anybody, and nobody goes farther than its speed takes it.
 fn step(traffic: &mut Traffic, before: &mut Vec<Option<Point2>>, at: usize) {
     traffic.step(0.1);
-    let mut bodies: Vec<Body> = traffic.vehicles().collect();
-    for body in &bodies {
+    for body in traffic.vehicles() {
         let here = Point2::new(body.pose.translation.x, body.pose.translation.y);
         let index = body.id as usize;
         before.resize(before.len().max(index + 1), None);
@@ -27,14 +27,7 @@ fn step(traffic: &mut Traffic, before: &mut Vec<Option<Point2>>, at: usize) {
     for trip in traffic.ended() {
         before[trip.id as usize] = None;
     }
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    let solid = |body: &Body| -> Obb { body.shape.obb(&body.pose) };
-    for (index, a) in bodies.iter().enumerate() {
-        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
-        {
-            assert!(!solid(a).footprints_overlap(&solid(b)), "{a:?} touches {b:?} at step {at}");
-        }
-    }
+    assert_apart(traffic, at);
 }
 
 /// A loop of four one-way streets that four others join: those who are on it can only go on.

@@ -6,6 +6,8 @@ mod at_once;
 mod buses_keep_their_stops;
 mod busy_network_is_safe;
 mod car_following;
+#[path = "../shared/contacts.rs"]
+mod contacts;
 mod cycle_lanes_are_left_to_bicycles;
 mod drivers_change_lanes;
 mod drivers_of_all_kinds;

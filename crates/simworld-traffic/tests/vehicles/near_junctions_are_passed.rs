@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::{Obb, Point2};
+use simworld_core::geometry::Point2;
 use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_traffic::signal::Actuated;
-use simworld_traffic::{Body, Traffic, TrafficConfig};
+use simworld_traffic::{Traffic, TrafficConfig};
+
+use crate::contacts::touching;
 
 /// Two parallel streets so near that the pieces of the cross streets between them are a few metres long, and dead ends of a few
 /// metres.
@@ -28,13 +30,6 @@ fn plan(apart: f64) -> StreetPlan {
     plan
 }
 
-fn touching(traffic: &Traffic) -> usize {
-    let bodies: Vec<Body> = traffic.vehicles().collect();
-    let solids: Vec<Obb> = bodies.iter().map(|body| body.shape.obb(&body.pose)).collect();
-    let pairs = (0..solids.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-    pairs.filter(|(a, b)| solids[*a].footprints_overlap(&solids[*b])).count()
-}
-
 #[test]
 fn nobody_stands_for_good_between_junctions_near_one_another() {
     let network = RoadNetwork::derive(&plan(16.0), &NetworkConfig::default()).expect("it is a plan");
@@ -51,7 +46,7 @@ fn nobody_stands_for_good_between_junctions_near_one_another() {
             for step in 0..9000 {
                 traffic.step(0.1);
                 if step % 5 == 0 {
-                    assert_eq!(touching(&traffic), 0, "at {} s with seed {seed}", traffic.seconds());
+                    assert_eq!(touching(&traffic), [], "at {} s with seed {seed}", traffic.seconds());
                 }
             }
             let crossings = traffic.counters().crossings;

@@ -2,32 +2,17 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::Obb;
 use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
-use simworld_traffic::{Body, Counters, Traffic, TrafficConfig};
+use simworld_traffic::{Counters, Traffic, TrafficConfig};
+
+use crate::contacts::assert_apart;
 
 /// Traffic on a grid of streets of 130 m.
 pub(crate) fn on_grid(columns: usize, config: &TrafficConfig, seed: u64) -> Traffic {
     let plan = StreetPlan::grid(columns, columns, 130.0);
     let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network");
     Traffic::new(Arc::new(network), config, Seed(seed)).expect("the settings are in range")
-}
-
-/// Pairs of vehicles whose bodies overlap, by exact rectangles over a sweep along x.
-pub(crate) fn collisions(bodies: &mut [Body]) -> Vec<(u32, u32)> {
-    let solid = |body: &Body| -> Obb { body.shape.obb(&body.pose) };
-    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
-    let mut found = Vec::new();
-    for (index, a) in bodies.iter().enumerate() {
-        let near = |b: &&Body| b.pose.translation.x - a.pose.translation.x < 14.0;
-        for b in bodies[index + 1..].iter().take_while(near) {
-            if solid(a).footprints_overlap(&solid(b)) {
-                found.push((a.id, b.id));
-            }
-        }
-    }
-    found
 }
 
 /// Drives on for so many steps of 0.1 s; panics if bodies overlap or somebody enters on red who may not.
@@ -49,9 +34,7 @@ pub(crate) fn drive(traffic: &mut Traffic, steps: u32, may_pass_red: impl Fn(u32
             assert!(!(entered && red) || may_pass_red(id), "vehicle {id} entered on red at step {step}");
         }
         before = now;
-        let mut bodies: Vec<Body> = traffic.vehicles().collect();
-        let touching = collisions(&mut bodies);
-        assert!(touching.is_empty(), "vehicles {touching:?} touch at step {step}");
+        assert_apart(traffic, step as usize);
     }
     traffic.counters()
 }
