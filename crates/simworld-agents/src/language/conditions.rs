@@ -38,7 +38,7 @@ impl Draft<'_> {
         Ok(match test {
             Test::Light { light, shows } => {
                 let nearest = Reference { indefinite: true, ..Reference::nearest(class("traffic light")) };
-                let light = self.view.find(light.as_ref().unwrap_or(&nearest), Purpose::Any)?.id;
+                let light = self.find(light.as_ref().unwrap_or(&nearest), Purpose::Any)?.id;
                 Condition::Signal { light, shows: *shows }
             }
             Test::Sees(what) => Condition::Sees(self.which(what)?),

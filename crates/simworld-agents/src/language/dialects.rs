@@ -18,7 +18,7 @@ const PLAIN: &[(&str, &str)] = &[
     ("ty", "thanks"), ("tysm", "thanks"), ("thru", "through"), ("nite", "night"), ("gimmie", "gimme"),
     ("omg", ""), ("lol", ""), ("lmao", ""), ("rofl", ""), ("haha", ""), ("hehe", ""), ("idk", ""), ("btw", ""),
     ("fyi", ""), ("imo", ""), ("imho", ""), ("tbh", ""), ("ngl", ""), ("tho", ""), ("though", ""), ("literally", ""),
-    ("kinda", ""), ("sorta", ""), ("ffs", ""), ("xd", ""), ("wow", ""), ("phew", ""), ("ugh", ""), ("oops", ""),
+    ("kinda", ""), ("sorta", ""), ("ffs", ""), ("xd", ""), ("wow", ""), ("phew", ""), ("ugh", ""),
     ("ouch", ""), ("psst", ""), ("hurrah", ""), ("hooray", ""), ("alas", ""),
     ("thou", "you"), ("thee", "you"), ("ye", "you"), ("thy", "your"), ("thine", "your"), ("shalt", "shall"),
     ("wilt", "will"), ("hast", "have"), ("hath", "has"), ("doth", "does"), ("unto", "to"),

@@ -7,6 +7,18 @@ use super::hearing;
 use super::lexer::{Lexeme, word_of};
 use super::verbs::longest_verb;
 
+/// "Let's get a shot for the flyer: photograph the birch": one photo, announced and then said of what.
+pub(super) fn without_announced_photo(clauses: &mut Vec<Clause>, words: &str) {
+    let announced =
+        matches!(clauses[..], [Clause::Photo { of: None, times: 1 }, Clause::Photo { of: Some(_), .. }, ..]);
+    let told_apart = hearing::hear(words, None)
+        .iter()
+        .any(|lexeme| ["and", "then", "also", "again", "another", "after", "too"].contains(&word_of(lexeme)));
+    if announced && !told_apart {
+        clauses.remove(0);
+    }
+}
+
 /// Takes out what is done to so many things where the same is done to each of them behind it and the deed was said only once.
 pub(super) fn once_each(clauses: &mut Vec<Clause>, words: &str) {
     let mut at = 0;

@@ -248,6 +248,7 @@ impl GrammarPlanner {
             let mut lexemes = hearing::hear(words, me.info.name.as_deref());
             fractions::in_one(&mut lexemes);
             chatter::plainly(&mut lexemes, words);
+            talk::leave_out_before_but(&mut lexemes);
             in_turn::told_one_by_one(&mut lexemes);
             if idle::tells_how_it_was(&lexemes) {
                 let hint = "that is how it was: say what is to be done".to_owned();
@@ -276,6 +277,7 @@ impl GrammarPlanner {
             _ => refused,
         })?;
         enumerated::once_each(&mut clauses, words);
+        enumerated::without_announced_photo(&mut clauses, words);
         Ok(clauses)
     }
 }
@@ -308,6 +310,8 @@ fn told_otherwise(heard: &[lexer::Lexeme], names: &Names<'_>) -> Vec<Vec<lexer::
     spelling::correct(&mut corrected, names);
     let bare = talk::without_idioms(&corrected);
     let whole = bare.as_deref().unwrap_or(&corrected);
+    let named = talk::without_epithets(whole, names);
+    let whole = named.as_deref().unwrap_or(whole);
     let mut all: Vec<_> = talk::with_the_name(whole, names).into_iter().collect();
     let told = std::iter::once(whole).chain(talk::without_talk(whole, names));
     for told in told.flat_map(|told| std::iter::once(told).chain(talk::without_tail(told, names))) {

@@ -134,6 +134,14 @@ fn meant_behind(lexemes: &mut Vec<Lexeme>, mark: usize) {
     slip.mend(lexemes);
 }
 
+/// "I left my scarf there, silly me. Sit on ...": what ends a sentence takes nothing back of the next.
+fn blames_oneself(said: &[Lexeme], after: &[Lexeme]) -> bool {
+    let blames = longest_phrase(said, &["silly me", "my bad", "my fault", "my mistake"]).is_some();
+    blames
+        && after.first().is_some_and(|mark| mark.token == Token::Break)
+        && after.get(1..).is_some_and(|next| longest_verb(next).is_some())
+}
+
 /// Where something is taken back.
 struct Slip {
     /// The mark behind what was wrong.
@@ -159,7 +167,9 @@ impl Slip {
                 longest_phrase(rest, MEANT).filter(|words| filler(rest).is_none_or(|more| more <= *words))
             {
                 (at, alone) = (at + words, true);
-            } else if let Some(words) = longest_phrase(rest, WRONG).filter(|words| marked(*words)) {
+            } else if let Some(words) = longest_phrase(rest, WRONG)
+                .filter(|words| marked(*words) && !blames_oneself(&rest[..*words], &rest[*words..]))
+            {
                 (at, alone) = (at + words, true);
             } else if let Some(words) = longest_phrase(rest, SORRY)
                 .filter(|words| marked(*words) || longest_phrase(&rest[*words..], MEANT).is_some())
@@ -198,7 +208,11 @@ impl Slip {
         let which = |at: usize| which(at) && ARTICLES.contains(&word_of(&lexemes[self.from]));
         let stated = (self.from..end).any(|at| FINITE.contains(&word_of(&lexemes[at])) && !which(at));
         if !stated && let Some(mended) = replaced(&lexemes[begin..self.mark], &lexemes[self.from..end]) {
-            lexemes.splice(begin..end, mended);
+            let place = |lexeme: &Lexeme| ["at", "from", "in"].contains(&word_of(lexeme));
+            let goes_on = lexemes.get(end).is_some_and(|mark| mark.token == Token::Comma)
+                && lexemes.get(end + 1).is_some_and(place);
+            // "Buy milk, I mean bread, at the kiosk".
+            lexemes.splice(begin..end + usize::from(goes_on), mended);
         } else if self.alone && !CONDITIONS.contains(&word_of(&lexemes[begin.min(self.mark - 1)])) {
             let lexeme = lexemes[self.mark].clone();
             let no = Lexeme { token: Token::Word("no".to_owned()), lemma: None, ..lexeme.clone() };
@@ -230,10 +244,17 @@ fn replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
         return Some([&wrong[..at], &right].concat());
     }
     if longest_verb(right).is_some() {
-        return None;
+        // "Left, no, turn right": what was wrong is no order yet.
+        return (wrong.len() <= 2 && longest_verb(wrong).is_none()).then(|| right.to_vec());
+    }
+    if let Some(mended) = nearness_replaced(wrong, right).or_else(|| goods_replaced(wrong, right)) {
+        return Some(mended);
     }
     if ARTICLES.contains(&first) {
         return thing_replaced(wrong, right);
+    }
+    if is_choice(right) {
+        return choice_replaced(wrong, right);
     }
     if let Some(words) = direction(right).filter(|words| *words == right.len()) {
         let at = (0..wrong.len()).rfind(|at| direction(&wrong[*at..]).is_some())?;
@@ -260,8 +281,9 @@ fn thing_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
         let end = |at: &usize| [LINKS, ARTICLES].iter().any(|list| list.contains(&word_of(&said[*at])));
         (from + 1..said.len()).find(end).unwrap_or(said.len())
     };
-    let articles: Vec<usize> =
-        (1..wrong.len()).filter(|at| ARTICLES.contains(&word_of(&wrong[*at]))).collect();
+    let articles: Vec<usize> = (1..wrong.len())
+        .filter(|at| ARTICLES.contains(&word_of(&wrong[*at])) && !of_the_verb(wrong, *at))
+        .collect();
     let same = |at: &&usize| wrong[ends(wrong, **at) - 1].token == right[ends(right, 0) - 1].token;
     // "The shortest, no, the tallest tree": of which kind is said behind.
     if let Some(at) = articles.last().copied()
@@ -299,6 +321,19 @@ fn thing_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     Some([&wrong[..at], &right[..], rest].concat())
 }
 
+/// "Take a seat": the article of a verb of several words.
+fn of_the_verb(said: &[Lexeme], article: usize) -> bool {
+    let covers = |from: usize| longest_verb(&said[from..]).is_some_and(|(_, words)| from + words > article);
+    (article.saturating_sub(3)..article).any(covers)
+}
+
+/// "The nearest car, oops, second nearest".
+fn choice_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
+    let article = wrong.iter().rposition(|lexeme| ARTICLES.contains(&word_of(lexeme)))?;
+    let [chosen @ .., noun] = wrong.get(article + 1..)? else { return None };
+    is_choice(chosen).then(|| [&wrong[..=article], right, std::slice::from_ref(noun)].concat())
+}
+
 /// "Third", "second nearest": which of several, without what they are.
 fn is_choice(mut said: &[Lexeme]) -> bool {
     let some = !said.is_empty();
@@ -311,6 +346,31 @@ fn is_choice(mut said: &[Lexeme]) -> bool {
         said = &said[words..];
     }
     some
+}
+
+/// "The bench nearest to Marta, no, nearest to Samira": to what something is near, or far from.
+fn nearness_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
+    let near = |said: &[Lexeme]| longest_phrase(said, NEAREST).or_else(|| longest_phrase(said, FARTHEST));
+    let words = near(right)?;
+    LINKS.contains(&word_of(right.get(words)?)).then_some(())?;
+    let at = (1..wrong.len()).rfind(|at| {
+        near(&wrong[*at..])
+            .is_some_and(|words| wrong.get(at + words).is_some_and(|link| LINKS.contains(&word_of(link))))
+    })?;
+    Some([&wrong[..at], right].concat())
+}
+
+/// "Buy milk, I mean bread": one word for what is bought.
+fn goods_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
+    const BUYS: &[&str] = &["buy", "order", "purchase", "get", "fetch"];
+    let [.., buys, goods] = wrong else { return None };
+    let plain = |lexeme: &Lexeme| {
+        matches!(&lexeme.token, Token::Word(_))
+            && !ARTICLES.contains(&word_of(lexeme))
+            && lexeme.lemma.is_none()
+    };
+    let one = right.len() == 1 && plain(&right[0]) && plain(goods) && BUYS.contains(&word_of(buys));
+    one.then(|| [&wrong[..wrong.len() - 1], right].concat())
 }
 
 /// "Give it to Emil, no, Boris": one name for another.

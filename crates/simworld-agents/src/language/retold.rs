@@ -37,6 +37,8 @@ const PLAINER: &[(&str, &str)] = &[
     ("all four of the", "all four"), ("would that do", ""), ("will that do", ""), ("would that work", ""), ("does that work", ""), ("is that alright", ""),
     ("is that all right", ""), ("is that ok", ""), ("is that okay", ""), ("how about that", ""), ("what about that", ""), ("how would that be", ""),
     ("at the very end", "finally"), ("so easily", ""), ("so often", ""), ("so slowly", ""), ("so much", ""),
+    ("only halfway", "halfway"), ("only half way", "halfway"), ("over and over until", "until"), ("again and again until", "until"), ("over and over again until", "until"),
+    ("in order of distance", ""), ("in order of their distance", ""), ("in the order of distance", ""), ("by distance", ""),
     ("climb onto", "get on"), ("climb on to", "get on"), ("climb up on", "get on"),
 ];
 /// Ground over which a way leads that ends elsewhere.
@@ -61,6 +63,16 @@ const GROUNDS: &[&str] = &[
     "road",
     "street",
     "square",
+    "shore",
+    "beach",
+    "quay",
+    "waterfront",
+    "promenade",
+    "boardwalk",
+    "riverside",
+    "bank",
+    "path",
+    "sidewalk",
 ];
 /// What a whole scene may be called, where nothing in it is called so.
 #[rustfmt::skip]
@@ -170,7 +182,15 @@ fn across_to(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     while at + 3 < lexemes.len() {
         let across = longest_phrase(
             &lexemes[at..],
-            &["across the", "over the", "through the", "right across the", "straight across the"],
+            &[
+                "across the",
+                "over the",
+                "through the",
+                "right across the",
+                "straight across the",
+                "along the",
+                "all along the",
+            ],
         );
         if let Some(words) = across
             && let Some(ground) = lexemes.get(at + words).filter(|ground| GROUNDS.contains(&word_of(ground)))
@@ -178,6 +198,9 @@ fn across_to(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
             && longest_phrase(&lexemes[at + words + 1..], &["to", "over to", "towards", "into"]).is_some()
         {
             lexemes.drain(at..=at + words);
+            if word_of(&lexemes[at - 1]) == "cut" {
+                put(lexemes, at - 1, at, "go");
+            }
         }
         at += 1;
     }

@@ -10,7 +10,7 @@ use simworld_core::scene::EntityKind;
 
 use super::clause::{Reference, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{CATEGORIES, Category, fits_noun};
+use super::lexicon::{CATEGORIES, Category, fits_noun, is_plural};
 use super::names::Names;
 use super::resolve::{Ranked, View};
 
@@ -92,8 +92,11 @@ impl View<'_> {
     /// "The parcel" is none that is called "suitcase", where another is there.
     pub(super) fn leave_others_out(&self, reference: &Reference, found: &mut Vec<Ranked>) {
         let Target::Any(class) = &reference.target else { return };
-        if found.len() < 2 || class.kinds() != [EntityKind::Parcel] {
+        if found.len() < 2 {
             return;
+        }
+        if class.kinds() != [EntityKind::Parcel] {
+            return self.keep_those_called(class, &reference.text, found);
         }
         let is_called_so = |(_, id): &Ranked| {
             let Some(entity) = self.scene.entity(*id) else { return false };
@@ -104,6 +107,24 @@ impl View<'_> {
         };
         if found.iter().any(is_called_so) {
             found.retain(is_called_so);
+        }
+    }
+
+    /// "The two taxis" are those called "taxi", where some are: a word that says more than the kind does.
+    fn keep_those_called(&self, class: &Category, text: &str, found: &mut Vec<Ranked>) {
+        let own = |word: &&&str| class.kinds().iter().all(|kind| kind.as_str() != **word);
+        let mut said = text.split_whitespace();
+        let narrow = said.find_map(|said| {
+            class.words[1..].iter().filter(own).find(|word| *said == ***word || is_plural(said, word))
+        });
+        let Some(word) = narrow else { return };
+        let called = |(_, id): &Ranked| {
+            let name = self.scene.entity(*id).and_then(|entity| entity.info.name.as_ref());
+            name.and_then(|name| name.split_whitespace().last())
+                .is_some_and(|last| last.eq_ignore_ascii_case(word))
+        };
+        if found.iter().any(called) {
+            found.retain(called);
         }
     }
 }

@@ -20,7 +20,7 @@ const GUARDS: &Phrases = &Phrases::of(&[
     "you should", "you must", "you have to", "you need to", "you can", "you could", "you may", "you shall", "you are to", "youre to", "could you", "would you", "will you", "can you",
     "want", "wants", "need", "needs", "wanted", "needed", "then", "other than", "another", "ought to go", "mean", "means", "meant", "rule", "rules", "law", "forbidden", "allowed", "supposed", "reserved", "belongs", "belong", "off limits", "stolen", "must stay", "has to stay", "order", "orders", "command", "instruction", "example",
     "word", "opposite", "reverse", "game", "following", "next bit", "comes next", "play", "playing", "pretend", "character", "role", "distances", "numbers", "directions", "left", "right", "north", "south", "east", "west", "always", "every", "each", "whoever", "whatever", "anyone", "anybody",
-    "anything", "everything", "ideally", "i wish", "should stay", "careful", "beware", "warning", "watch out", "void", "cancel", "cancelling", "hint", "advice", "locked", "shut", "off limits", "asleep", "deaf", "blind", "scared", "allergic", "allergy", "secret", "code", "instead of", "same", "different",
+    "anything", "everything", "ideally", "i wish", "should stay", "careful", "beware", "warning", "watch out", "void", "cancel", "cancelling", "hint", "advice", "locked", "shut", "off limits", "asleep", "scared", "allergic", "allergy", "secret", "code", "instead of", "same", "different",
     "twice", "the one", "the ones", "talking about", "thinking of", "speaking of", "id like", "i would like", "id love", "i would love", "wed like", "we would like", "first", "but",
 ]);
 /// Said by itself, it asks for nothing though a verb or a guard stands in it.
@@ -36,15 +36,29 @@ const IDIOMS: &Phrases = &Phrases::of(&[
     "or so im told", "or so i am told", "or something", "or something like that", "or so i think", "i think", "i guess", "i suppose", "i believe", "i hope", "i bet", "you know", "you see", "would you believe it",
     "can you believe it", "can you imagine", "what a day", "fat fingers", "fat fingers today", "busy day", "busy day today", "long day", "big day", "big day today", "lucky me", "poor me", "poor thing", "here we are", "here we are again", "there we are",
     "first time here", "my first time here", "its my first time here", "nothing to worry about", "nothing much", "not much", "just so you know", "just saying", "no idea why", "dont know why", "i dont know why", "who knows", "who knows why", "goodness knows", "god knows",
-    "what can i say", "what can you do", "where was i", "where were we", "as usual", "as always", "of all days", "of all things", "for once", "once more", "plan for today", "plan for the day", "nothing personal", "you wouldnt believe it", "it wasnt me", "i couldnt say", "i could not say", "not again", "by the way", "poor lad", "poor lass", "poor chap", "shame on me", "typical", "phew", "me with the camera", "where did i put it", "if you were wondering", "if you must know", "in case you were wondering", "hope im not interrupting", "hope i am not interrupting", "i know youve got plenty to do", "i know you have plenty to do", "i know youre busy", "i know you are busy", "sleepyhead", "let me sit", "you sit", "no you sit", "already", "evening already", "night already", "lets get everyone together", "lets get everybody together", "id like you in the picture", "id like you in it", "if you dont mind", "if you do not mind", "if thats ok", "id love a lift", "id love a lift home", "silly man", "silly woman", "silly me", "isnt it", "is not it", "whatever", "make some friends", "time for tea", "thirsty work", "thirsty work this", "well roughly", "hint hint", "wink wink", "much obliged", "cheers", "ta", "that is all", "thats all",
+    "what can i say", "what can you do", "where was i", "where were we", "as usual", "as always", "of all days", "of all things", "for once", "once more", "plan for today", "plan for the day", "nothing personal", "you wouldnt believe it", "it wasnt me", "i couldnt say", "i could not say", "not again", "by the way", "poor lad", "poor lass", "poor chap", "shame on me", "typical", "phew", "me with the camera", "where did i put it", "if you were wondering", "if you must know", "in case you were wondering", "hope im not interrupting", "hope i am not interrupting", "i know youve got plenty to do", "i know you have plenty to do", "i know youre busy", "i know you are busy", "sleepyhead", "let me sit", "you sit", "no you sit", "already", "evening already", "night already", "lets get everyone together", "lets get everybody together", "id like you in the picture", "id like you in it", "if you dont mind", "if you do not mind", "if thats ok", "id love a lift", "id love a lift home", "silly man", "silly woman", "silly me", "isnt it", "is not it", "whatever", "make some friends", "time for tea", "thirsty work", "thirsty work this", "well roughly", "hint hint", "wink wink", "much obliged", "cheers", "ta", "that is all", "thats all", "careful", "careful now", "gently", "gently now", "steady", "steady now", "hurry up a bit", "chop chop", "will you", "would you", "can you", "could you", "my friend", "patience", "this",
 ]);
 /// With what a sentence of politeness begins, whatever follows.
 #[rustfmt::skip]
 const POLITE: &Phrases = &Phrases::of(&[
     "for my", "for our", "for the", "hope", "shame on", "fine day", "sorry for", "sorry about", "sorry to", "sry for", "sorry im", "sorry i am", "sry im", "cheers for", "thanks for", "thank you for", "ta for", "apologies for", "excuse my", "excuse the", "pardon my", "pardon the", "forgive my", "forgive the",
     "someone has to", "somebody has to", "lovely to see", "nice to see", "good to see", "great to see", "lovely to meet", "nice to meet", "good to meet", "happy to", "glad to", "sry typing", "sorry typing", "typing with", "typing on", "look whos", "look who is", "look what", "look at the time", "lets see if", "lets see whether", "lets see how", "lets see what", "let us see if", "let us see whether", "let us see what",
-    "let us see how", "lets find out",
+    "let us see how", "lets find out", "sorry for not", "sorry about not", "hope you dont mind", "hope you do not mind", "hope its not", "hope its no", "hope it is not", "hope it is no", "forgive me for", "excuse me for", "pardon me for", "did you see",
+    "did you hear", "did you know", "did you notice", "did you sleep", "did you have a", "did you enjoy", "have you ever", "have you heard", "have you noticed", "isnt it", "isnt this", "isnt that", "arent they", "arent these", "doesnt it",
+    "been on my", "been here", "been waiting", "been walking", "been working", "been a long", "been ages", "been up since", "been a while", "just got", "just came", "just had", "just finished", "came here", "got here", "how are you", "how is it going", "hows it going", "how are things", "hows things", "how is your", "hows your", "how was your", "remember when", "guess what", "guess who", "would you believe", "can you believe", "can you imagine",
 ]);
+/// What forbids nothing and sets no order, though a guard stands in it.
+#[rustfmt::skip]
+const HARMLESS: &Phrases = &Phrases::of(&[
+    "i left", "we left", "he left", "she left", "they left", "you left", "who left", "somebody left", "someone left", "was left", "were left", "is left", "are left", "left behind", "left over", "have left", "has left", "first thing", "first things first", "first time",
+    "first day", "first week", "first visit", "first aid", "at first", "safety first", "fitness first", "ladies first", "business first", "work first", "health first", "family first", "dont want you to", "do not want you to", "wouldnt want you to", "need the exercise", "needs the exercise", "need some exercise", "need a break", "needs a break", "need a rest", "needs a rest", "need some air", "need the money", "need the practice", "wants it done", "wants this done", "wants that done", "needs it done", "want it done", "no longer",
+    "no idea", "no surprise", "no wonder", "no doubt", "no time to lose", "no one told me", "nobody told me", "not sure", "not far", "not long", "not long now", "not often", "not feeling", "not getting any younger", "not my day", "not what it was", "not what they were", "cant complain",
+    "before the rain", "before it rains", "before the shops close", "before the shop closes", "before dark", "before dinner", "before lunch", "after work", "after lunch", "after dinner", "after school", "after the rain", "all day", "each other", "every day", "every morning", "every evening",
+    "every week", "every year", "every time", "every summer", "every winter",
+]);
+/// What is said of how things are, without who or what: whoever orders something says "look" and not "looks".
+#[rustfmt::skip]
+const SEEMS: &[&str] = &["looks", "feels", "seems", "smells", "sounds", "tastes", "appears", "hurts", "works", "gets", "serves", "beats", "makes"];
 /// Words of judgement before what is called so, without a verb.
 #[rustfmt::skip]
 const JUDGED: &[&str] = &[
@@ -65,15 +79,26 @@ pub(super) fn without_talk<'a>(
 ) -> impl Iterator<Item = &'a [Lexeme]> {
     let mut rests = Vec::new();
     let mut from = 0;
-    while let Some(end) =
-        lexemes[from..].iter().position(|lexeme| lexeme.token == Token::Break).map(|end| from + end)
-        && end + 1 < lexemes.len()
-        && is_talk(&lexemes[from..end], &lexemes[end + 1..], names)
+    while let Some((end, next)) = end_of_talk(lexemes, from)
+        && is_talk(&lexemes[from..end], &lexemes[next..], names)
     {
-        from = end + 1;
+        from = next;
         rests.push(&lexemes[from..]);
     }
     rests.into_iter().filter(|rest| !rest.iter().all(is_mark))
+}
+
+/// Where what may be talk ends, and where the order behind it begins: behind a sentence, or behind the "so" of a reason.
+fn end_of_talk(lexemes: &[Lexeme], from: usize) -> Option<(usize, usize)> {
+    let so = |at: usize| lexemes.get(at + 1).is_some_and(|next| word_of(next) == "so");
+    let ends = |at: &usize| match lexemes[*at].token {
+        Token::Break => true,
+        Token::Comma => so(*at),
+        _ => false,
+    };
+    let end = (from..lexemes.len()).find(ends)?;
+    let next = if so(end) { end + 2 } else { end + 1 };
+    (end > from && next < lexemes.len()).then_some((end, next))
 }
 
 /// The order with the name of whom the talk before it told in the place of the first pronoun: "Ben's my cousin, by the way. Go to him".
@@ -150,6 +175,57 @@ pub(super) fn without_idioms(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     (kept.len() < lexemes.len() && !kept.iter().all(is_mark)).then_some(kept)
 }
 
+/// "..., no hurry, but wave at Mei first": what says nothing may stand before a "but" that tells of what comes first.
+pub(super) fn leave_out_before_but(lexemes: &mut Vec<Lexeme>) {
+    let mut at = 1;
+    while at < lexemes.len() {
+        let words = Some(at).filter(|at| lexemes[*at].token == Token::Comma).and_then(|at| {
+            longest_phrase(&lexemes[at + 1..], IDIOMS).filter(|words| {
+                lexemes.get(at + 1 + words).is_some_and(is_mark)
+                    && lexemes.get(at + 2 + words).is_some_and(|next| word_of(next) == "but")
+            })
+        });
+        if let Some(words) = words {
+            lexemes.drain(at..=at + words);
+        }
+        at += 1;
+    }
+}
+
+/// The sentences without what somebody is called at the end of one of them: "Milan forgot the bag again, the dreamer. Take it to him".
+pub(super) fn without_epithets(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
+    const CALLING: &[&str] =
+        &["the", "poor", "bless", "silly", "clever", "dear", "old", "lucky", "good", "my", "our"];
+    let known = |rest: &[Lexeme]| {
+        category(rest).is_some()
+            || names.exact(rest).is_some()
+            || names.goods(rest).is_some()
+            || is_bidden(rest)
+    };
+    let mut kept = lexemes.to_vec();
+    let breaks =
+        (0..lexemes.len()).rev().filter(|at| lexemes[*at].token == Token::Break && *at + 1 < lexemes.len());
+    for end in breaks {
+        let Some(mark) =
+            lexemes[..end].iter().rposition(is_mark).filter(|at| lexemes[*at].token == Token::Comma)
+        else {
+            continue;
+        };
+        let called = &lexemes[mark + 1..end];
+        let begin =
+            lexemes[..mark].iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);
+        let calls = (2..=3).contains(&called.len()) && CALLING.contains(&word_of(&called[0]));
+        if calls
+            && !(1..called.len()).any(|at| known(&called[at..]))
+            && begin < mark
+            && !is_bidden(&lexemes[begin..mark])
+        {
+            kept.drain(mark..end);
+        }
+    }
+    (kept.len() < lexemes.len()).then_some(kept)
+}
+
 fn says_nothing(said: &[Lexeme]) -> bool {
     !said.is_empty() && longest_phrase(said, IDIOMS) == Some(said.len())
 }
@@ -170,8 +246,15 @@ fn is_talk(sentence: &[Lexeme], order: &[Lexeme], names: &Names<'_>) -> bool {
     let named = |rest: &[Lexeme]| {
         category(rest).is_some() || names.exact(rest).is_some() || names.goods(rest).is_some()
     };
-    let asks = |rest: &[Lexeme]| named(rest) || longest_verb(rest).is_some();
-    let idle = |said: &[Lexeme]| is_fragment(said) && !(0..said.len()).any(|at| asks(&said[at..]));
+    // "Of the shift": behind an article stands a noun.
+    let noun =
+        |said: &[Lexeme], at: usize| at > 0 && longest_phrase(&said[at - 1..at], DETERMINERS).is_some();
+    let several = sentence.iter().any(is_mark);
+    let idle = |said: &[Lexeme]| {
+        (said.len() > 1 || several || is_noun(word_of(&said[0])))
+            && is_fragment(said)
+            && !(0..said.len()).any(|at| named(&said[at..]) || is_bidden(&said[at..]) && !noun(said, at))
+    };
     let tells = parts
         .peek()
         .is_none_or(|first| longest_phrase(first, POLITE).is_some() || tells_something(first) || idle(first));
@@ -212,7 +295,24 @@ fn tells_something(said: &[Lexeme]) -> bool {
     let second = said.get(1).map_or("", word_of);
     let may_be = ["there", "it", "they", "he", "she", "we", "i"].contains(&first)
         && ["should", "must", "might", "ought", "shall", "may"].contains(&second);
-    judged || told || may_be || asides::states_something(said)
+    judged || told || may_be || seems(said) || asides::states_something(said)
+}
+
+/// Whether a word alone is called rather than told to be done: "stocktaking", "madness".
+fn is_noun(word: &str) -> bool {
+    ["ing", "ence", "ance", "ness", "tion", "day", "ment"].iter().any(|ending| word.ends_with(ending))
+}
+
+/// "Looks stormy", "feels like rain".
+fn seems(said: &[Lexeme]) -> bool {
+    let place = ["at", "for", "after", "to", "behind", "under"];
+    SEEMS.contains(&word_of(&said[0])) && said.get(1).is_some_and(|next| !place.contains(&word_of(next)))
+}
+
+/// Whether words begin with a verb, and not with what is called like one: "start of the shift".
+fn is_bidden(said: &[Lexeme]) -> bool {
+    let noun = |words: usize| words == 1 && said.get(1).is_some_and(|next| word_of(next) == "of");
+    longest_verb(said).is_some_and(|(_, words)| !noun(words))
 }
 
 /// "Lost my glasses again", "fine day for it", "been on my feet since six": words that begin with nothing that one could be told to do.
@@ -221,18 +321,17 @@ fn is_fragment(said: &[Lexeme]) -> bool {
     const ASKS: &[&str] = &["where", "who", "whos", "whom", "whose", "what", "which", "why", "how", "when", "is", "are", "was", "were", "does", "did", "do", "has", "have", "can", "could", "will", "would"];
     let first = word_of(&said[0]);
     !first.is_empty()
-        && said.len() > 1
-        && said[0].lemma.is_none()
         && !ASKS.contains(&first)
-        && !BIDDEN.split_whitespace().any(|verb| verb == first)
+        && (said.get(1).is_some_and(|next| word_of(next) == "of")
+            || said[0].lemma.is_none() && !BIDDEN.split_whitespace().any(|verb| verb == first))
 }
 
 /// What people are told to do that nobody here can, in their plain form: whoever begins so orders something.
 const BIDDEN: &str = include_str!("bidden.txt");
 
-/// Whether no part of what is said is an order, forbids or says when.
+/// Whether no part of what is said is an order, forbids or says when. Behind words of politeness a verb orders nothing ("thanks for waiting").
 fn asks_for_nothing(said: &[Lexeme]) -> bool {
-    let polite = longest_phrase(said, POLITE).is_some();
+    let polite = longest_phrase(said, POLITE).unwrap_or(0);
     let mut at = 0;
     while let Some(count) = filler(&said[at..]) {
         at += count;
@@ -240,13 +339,27 @@ fn asks_for_nothing(said: &[Lexeme]) -> bool {
             return true;
         }
     }
-    let guarded = (0..said.len()).any(|at| {
+    let orders = |at: usize| is_bidden(&said[at..]) && !seems(&said[at..]);
+    !is_guarded(&said[polite..]) && (polite > 0 || !orders(0) && !orders(at))
+}
+
+/// Whether something in it forbids, asks or says when.
+fn is_guarded(said: &[Lexeme]) -> bool {
+    let mut at = 0;
+    while at < said.len() {
+        if let Some(words) = longest_phrase(&said[at..], HARMLESS) {
+            at += words;
+            continue;
+        }
         let contracted = ["not", "no"].contains(&word_of(&said[at]))
             && at > 0
             && asides::is_finite(word_of(&said[at - 1]));
-        longest_phrase(&said[at..], GUARDS).is_some() && !contracted
-    });
-    polite || !guarded && longest_verb(said).is_none() && (at == 0 || longest_verb(&said[at..]).is_none())
+        if longest_phrase(&said[at..], GUARDS).is_some() && !contracted {
+            return true;
+        }
+        at += 1;
+    }
+    false
 }
 
 /// Whether the order is about one of those that the talk told of: then it may say which.

@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 30] = [
+const SETS: [&str; 34] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -64,6 +64,10 @@ const SETS: [&str; 30] = [
     "twentyeighth",
     "twentyninth",
     "thirtieth",
+    "thirtyfirst",
+    "thirtysecond",
+    "thirtythird",
+    "thirtyfourth",
 ];
 
 /// One thing that is said, and what it means.
