@@ -53,6 +53,7 @@ pub(super) fn plainly(lexemes: &mut Vec<Lexeme>, text: &str) {
     }
     without_small_talk(lexemes);
     without_a_look(lexemes);
+    without_how_amiss(lexemes);
     without_asking_for_a_nod(lexemes);
     let mut at = 0;
     while at < lexemes.len() {
@@ -77,6 +78,18 @@ fn word_at(lexemes: &[Lexeme], at: usize) -> &str {
         Some(Token::Word(word)) => word,
         _ => "",
     }
+}
+
+/// "The red canoe is too near the water, so lift it": what is amiss with a thing names no other that "it" could stand for.
+fn without_how_amiss(lexemes: &mut Vec<Lexeme>) {
+    let is = |at: &usize| {
+        ["is", "are", "stands", "lies", "sits"].contains(&word_at(lexemes, *at))
+            && word_at(lexemes, at + 1) == "too"
+            && ["near", "close", "far"].contains(&word_at(lexemes, at + 2))
+    };
+    let Some(at) = (1..lexemes.len()).find(is) else { return };
+    let Some(end) = (at..lexemes.len()).find(|at| is_mark(&lexemes[*at])) else { return };
+    put_words(lexemes, at + 1, end, &["here"]);
 }
 
 fn put_words(lexemes: &mut Vec<Lexeme>, from: usize, to: usize, words: &[&str]) {

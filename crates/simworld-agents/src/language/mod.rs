@@ -220,19 +220,13 @@ impl GrammarPlanner {
     /// The plan that words mean. Where something is not here of which only the talk before an order tells ("the forecast looked awful"), the
     /// order is what is meant.
     fn meant(words: &str, names: &Names<'_>, view: &View<'_>, me: &EntityRef<'_>) -> Result<Plan, PlanError> {
-        let plan = |words: &str| drafted(&Self::said(words, names, view, me)?, view.clone(), me);
-        plan(words).or_else(|refused| {
+        let drafted = |clauses: &[clause::Clause]| drafted(clauses, view.clone(), me);
+        drafted(&Self::said(words, names, view, me)?).or_else(|refused| {
             if !matches!(refused, PlanError::NotFound { .. }) {
                 return Err(refused);
             }
-            let heard = hearing::hear(words, me.info.name.as_deref());
-            let missing = unknown::missing(&refused);
-            // What the order itself speaks of is missed by it.
-            let is_named = |order: &Vec<lexer::Lexeme>| {
-                order.iter().any(|lexeme| missing.as_deref() == Some(lexer::word_of(lexeme)))
-            };
-            let orders = told_otherwise(&heard, names).into_iter().filter(|order| !is_named(order));
-            let mut plans = orders.map(|told| drafted(&read(words, told, names, view)?, view.clone(), me));
+            let orders = told_otherwise(&listened(words, me), names).into_iter();
+            let mut plans = orders.map(|told| drafted(&read(words, told, names, view)?));
             plans.find_map(Result::ok).ok_or(refused)
         })
     }
@@ -245,11 +239,7 @@ impl GrammarPlanner {
         me: &EntityRef<'_>,
     ) -> Result<Vec<clause::Clause>, PlanError> {
         let heard = |words: &str| {
-            let mut lexemes = hearing::hear(words, me.info.name.as_deref());
-            fractions::in_one(&mut lexemes);
-            chatter::plainly(&mut lexemes, words);
-            talk::leave_out_before_but(&mut lexemes);
-            in_turn::told_one_by_one(&mut lexemes);
+            let mut lexemes = listened(words, me);
             if idle::tells_how_it_was(&lexemes) {
                 let hint = "that is how it was: say what is to be done".to_owned();
                 return Err(PlanError::NotUnderstood {
@@ -280,6 +270,16 @@ impl GrammarPlanner {
         enumerated::without_announced_photo(&mut clauses, words);
         Ok(clauses)
     }
+}
+
+/// What is heard, put straight where that changes nothing.
+fn listened(words: &str, me: &EntityRef<'_>) -> Vec<lexer::Lexeme> {
+    let mut lexemes = hearing::hear(words, me.info.name.as_deref());
+    fractions::in_one(&mut lexemes);
+    chatter::plainly(&mut lexemes, words);
+    talk::leave_out_before_but(&mut lexemes);
+    in_turn::told_one_by_one(&mut lexemes);
+    lexemes
 }
 
 /// What was refused, without talk and in plainer words: a plan if there is one, or else an answer that says more.

@@ -132,6 +132,11 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         let counted = std::mem::replace(&mut self.at, here);
+        // "Say hello to Zoe, she only came today": who does something is nobody to whom the same is done.
+        if longest_phrase(&self.lexemes[here..], &["he", "she", "they", "we"]).is_some() {
+            self.at = here;
+            return Err(refused);
+        }
         let goes = matches!(self.verb, Some(Verb::Go | Verb::Run | Verb::Stroll));
         if goes && let Some(clauses) = self.by_the_compass(Pace::Usual).ok().flatten() {
             return Ok(clauses);

@@ -25,7 +25,7 @@ pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
 #[rustfmt::skip]
 pub(super) const JOINTS: &[&str] = &[
     "and", "then", "next", "after that", "afterwards", "finally", "also", "first", "lastly", "after this",
-    "later", "second", "subsequently", "firstly", "secondly", "thirdly", "to begin with", "to start with", "at first",
+    "later", "second", "subsequently", "firstly", "secondly", "third", "thirdly", "fourth", "fourthly", "to begin with", "to start with", "at first",
     "in the end", "when you are done", "when youre done", "once youre done", "once you are there",
     "when you get there", "plus", "once you are done", "when youve done that", "once there", "followed by",
     "and than", "at last", "immediately", "first things first", "first of all", "firstly of all",

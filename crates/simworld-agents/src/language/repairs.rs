@@ -363,6 +363,14 @@ fn nearness_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> 
 /// "Buy milk, I mean bread": one word for what is bought.
 fn goods_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     const BUYS: &[&str] = &["buy", "order", "purchase", "get", "fetch"];
+    // "Buy popcorn at the hut, no, a balloon".
+    let some = right.first().is_some_and(|first| ["a", "an", "some"].contains(&word_of(first)));
+    let verb = wrong.iter().position(|lexeme| BUYS.contains(&word_of(lexeme)));
+    if let Some(verb) = verb.filter(|_| some && right.len() < 4)
+        && let Some(link) = (verb + 2..wrong.len()).find(|at| ["at", "from"].contains(&word_of(&wrong[*at])))
+    {
+        return Some([&wrong[..=verb], right, &wrong[link..]].concat());
+    }
     let [.., buys, goods] = wrong else { return None };
     let plain = |lexeme: &Lexeme| {
         matches!(&lexeme.token, Token::Word(_))

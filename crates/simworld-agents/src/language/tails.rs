@@ -143,7 +143,22 @@ impl Parser<'_> {
         let comma = usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]));
         if let Some(count) = longest_phrase(&self.rest()[comma..], MANNERS) {
             self.at += comma + count;
+            self.skip_nearest_first();
         }
+    }
+
+    /// ", nearest first": the order that is taken anyway.
+    fn skip_nearest_first(&mut self) {
+        const NEAREST_FIRST: &[&str] = &[
+            "nearest first",
+            "closest first",
+            "the nearest first",
+            "the closest first",
+            "the nearest one first",
+            "the closest one first",
+        ];
+        let comma = usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]));
+        self.at += longest_phrase(&self.rest()[comma..], NEAREST_FIRST).map_or(0, |count| comma + count);
     }
 
     /// "..., but stop at the shop first".

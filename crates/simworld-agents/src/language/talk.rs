@@ -45,7 +45,7 @@ const POLITE: &Phrases = &Phrases::of(&[
     "someone has to", "somebody has to", "lovely to see", "nice to see", "good to see", "great to see", "lovely to meet", "nice to meet", "good to meet", "happy to", "glad to", "sry typing", "sorry typing", "typing with", "typing on", "look whos", "look who is", "look what", "look at the time", "lets see if", "lets see whether", "lets see how", "lets see what", "let us see if", "let us see whether", "let us see what",
     "let us see how", "lets find out", "sorry for not", "sorry about not", "hope you dont mind", "hope you do not mind", "hope its not", "hope its no", "hope it is not", "hope it is no", "forgive me for", "excuse me for", "pardon me for", "did you see",
     "did you hear", "did you know", "did you notice", "did you sleep", "did you have a", "did you enjoy", "have you ever", "have you heard", "have you noticed", "isnt it", "isnt this", "isnt that", "arent they", "arent these", "doesnt it",
-    "been on my", "been here", "been waiting", "been walking", "been working", "been a long", "been ages", "been up since", "been a while", "just got", "just came", "just had", "just finished", "came here", "got here", "how are you", "how is it going", "hows it going", "how are things", "hows things", "how is your", "hows your", "how was your", "remember when", "guess what", "guess who", "would you believe", "can you believe", "can you imagine",
+    "id like to know if", "i would like to know if", "id like to see if", "i want to know if", "i want to see if", "i wonder if", "i wonder whether", "id like to know whether", "how shall i put it", "how do i put it", "how can i put it", "how do you say", "how should i say", "been on my", "been here", "been waiting", "been walking", "been working", "been a long", "been ages", "been up since", "been a while", "just got", "just came", "just had", "just finished", "came here", "got here", "how are you", "how is it going", "hows it going", "how are things", "hows things", "how is your", "hows your", "how was your", "remember when", "guess what", "guess who", "would you believe", "can you believe", "can you imagine",
 ]);
 /// What forbids nothing and sets no order, though a guard stands in it.
 #[rustfmt::skip]
@@ -93,12 +93,20 @@ fn end_of_talk(lexemes: &[Lexeme], from: usize) -> Option<(usize, usize)> {
     let so = |at: usize| lexemes.get(at + 1).is_some_and(|next| word_of(next) == "so");
     let ends = |at: &usize| match lexemes[*at].token {
         Token::Break => true,
-        Token::Comma => so(*at),
+        Token::Comma => so(*at) || order_begins(&lexemes[*at + 1..]),
         _ => false,
     };
     let end = (from..lexemes.len()).find(ends)?;
     let next = if so(end) { end + 2 } else { end + 1 };
     (end > from && next < lexemes.len()).then_some((end, next))
+}
+
+/// Whether an order stands there, behind words of politeness.
+fn order_begins(mut said: &[Lexeme]) -> bool {
+    while let Some(count) = filler(said) {
+        said = &said[count..];
+    }
+    is_bidden(said) && !seems(said)
 }
 
 /// The order with the name of whom the talk before it told in the place of the first pronoun: "Ben's my cousin, by the way. Go to him".
@@ -122,8 +130,9 @@ pub(super) fn without_tail<'a>(lexemes: &'a [Lexeme], names: &Names<'_>) -> Opti
     let mark = lexemes[..end].iter().rposition(is_mark).filter(|mark| *mark > 1)?;
     let (order, tail) = (&lexemes[..mark], &lexemes[mark + 1..end]);
     // "Three pretzels, two breads and a rose" is a list, and "in that case take the red one" an order.
-    let lists =
-        (0..tail.len()).any(|at| names.goods(&tail[at..]).is_some() || longest_verb(&tail[at..]).is_some());
+    let lists = longest_phrase(tail, POLITE).is_none()
+        && (0..tail.len())
+            .any(|at| names.goods(&tail[at..]).is_some() || longest_verb(&tail[at..]).is_some());
     let told = tail.len() > 2 && !lists && (is_talk(tail, order, names) || tells_of_it(tail));
     told.then_some(order)
 }
@@ -306,7 +315,12 @@ fn is_noun(word: &str) -> bool {
 /// "Looks stormy", "feels like rain".
 fn seems(said: &[Lexeme]) -> bool {
     let place = ["at", "for", "after", "to", "behind", "under"];
-    SEEMS.contains(&word_of(&said[0])) && said.get(1).is_some_and(|next| !place.contains(&word_of(next)))
+    let [first, rest @ ..] = said else { return false };
+    let of_you = ["you", "they", "we"].contains(&word_of(first))
+        && rest.first().is_some_and(|verb| ["look", "seem", "sound", "feel"].contains(&word_of(verb)));
+    let rest = if of_you { &rest[1..] } else { rest };
+    (of_you || SEEMS.contains(&word_of(first)))
+        && rest.first().is_some_and(|next| !place.contains(&word_of(next)))
 }
 
 /// Whether words begin with a verb, and not with what is called like one: "start of the shift".
@@ -340,7 +354,7 @@ fn asks_for_nothing(said: &[Lexeme]) -> bool {
         }
     }
     let orders = |at: usize| is_bidden(&said[at..]) && !seems(&said[at..]);
-    !is_guarded(&said[polite..]) && (polite > 0 || !orders(0) && !orders(at))
+    !is_guarded(&said[polite..]) && (polite > 0 || seems(said) || !orders(0) && !orders(at))
 }
 
 /// Whether something in it forbids, asks or says when.

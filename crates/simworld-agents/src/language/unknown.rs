@@ -52,14 +52,6 @@ pub(super) fn unknown_deed(words: &str, names: &Names<'_>) -> Option<String> {
     (ends && !known && !here(noun)).then(|| word_of(noun).to_owned())
 }
 
-/// The noun of what an answer says is not here, in lower case.
-pub(super) fn missing(refused: &PlanError) -> Option<String> {
-    let PlanError::NotFound { wanted, .. } = refused else { return None };
-    // "thing that \"that thing\" could stand for" is about its quoted words.
-    let quoted = wanted.split('"').nth(1).unwrap_or(wanted);
-    quoted.split_whitespace().last().map(|word| word.to_lowercase().replace('\'', ""))
-}
-
 impl<'a> Parser<'a> {
     /// What such a phrase means, if one thing only can be meant.
     pub(super) fn misspelt(&mut self) -> Result<Target, PlanError> {
