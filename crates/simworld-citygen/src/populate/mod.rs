@@ -233,13 +233,7 @@ impl Parts<'_> {
             }
         }
         self.bridges(&mut descs);
-        for place in self.intersections() {
-            let Some(circle) = place.turning else { continue };
-            let pose = pose_facing(Point3::new(circle.center.x, circle.center.y, ROAD_TOP - LAYER), 0.0);
-            let disc = Shape::Cylinder { radius: circle.radius, height: LAYER };
-            let desc = EntityDesc::new(EntityKind::Road, pose, disc);
-            descs.push(lifted(desc, self.heights.height(place.center)));
-        }
+        self.room_to_turn(&mut descs);
         for crossing in self.crossings() {
             let stripe =
                 Stripe { a: crossing.start, b: crossing.end, half: crossing.width * 0.5, extend: 0.0 };
@@ -252,6 +246,23 @@ impl Parts<'_> {
             }
         }
         descs
+    }
+
+    /// Turning circles, and the heads of hammerheads.
+    fn room_to_turn(&self, descs: &mut Vec<EntityDesc>) {
+        for place in self.intersections() {
+            let circle = place.turning.map(|circle| {
+                let middle = Point3::new(circle.center.x, circle.center.y, ROAD_TOP - LAYER);
+                let disc = Shape::Cylinder { radius: circle.radius, height: LAYER };
+                EntityDesc::new(EntityKind::Road, pose_facing(middle, 0.0), disc)
+            });
+            let head = place.hammerhead.map(|head| {
+                let stripe = Stripe { a: head.tips[0], b: head.tips[1], half: head.width * 0.5, extend: 0.0 };
+                layer(EntityKind::Road, &stripe, ROAD_TOP)
+            });
+            let found = circle.into_iter().chain(head);
+            descs.extend(found.map(|desc| lifted(desc, self.heights.height(place.center))));
+        }
     }
 }
 

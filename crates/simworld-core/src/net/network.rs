@@ -200,6 +200,15 @@ pub struct TurningCircle {
     pub radius: f64,
 }
 
+/// The head of a T across the end of a street, in which vehicles turn where a circle has no room.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hammerhead {
+    /// The middles of the kerbs at the tips of its two arms, m.
+    pub tips: [Point2; 2],
+    /// Its width, m.
+    pub width: f64,
+}
+
 /// Where roads meet, or where one ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intersection {
@@ -226,6 +235,8 @@ pub struct Intersection {
     /// The walkways round its corners: the i-th leads from the left sidewalk of `roads[i]`, seen from here, to the
     /// right sidewalk of the next road, ends included; without points where one of the two is missing.
     pub corners: Vec<Vec<Point2>>,
+    /// The T in which vehicles turn, at a dead end that has it instead of a circle.
+    pub hammerhead: Option<Hammerhead>,
 }
 
 impl Intersection {

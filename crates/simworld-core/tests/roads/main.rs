@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod bicycles_have_their_own_lanes;
+mod dead_ends_have_hammerheads;
 mod derived_networks_hold_together;
 mod junctions_have_round_kerbs;
 mod petgraph_agrees;

@@ -9,6 +9,8 @@ use simworld_core::hash::StateHasher;
 use super::source::Source;
 use super::{MAGIC, SaveError, VERSION};
 
+/// The version of before, which is read still.
+const BEFORE: u32 = VERSION - 1;
 /// Items a section of a list.
 const CHUNK: usize = 1 << 16;
 
@@ -123,6 +125,7 @@ impl<'a, W: Write> Writer<'a, W> {
 pub(super) struct Sections<'a> {
     source: Source<'a>,
     found: Vec<Section>,
+    version: u32,
 }
 
 struct Section {
@@ -142,7 +145,7 @@ impl<'a> Sections<'a> {
         let mut rest = Rest { source: &source, at: 0 };
         rest.take::<8>("the magic")?;
         let version = u32::from_le_bytes(rest.take("the version")?);
-        if version != VERSION {
+        if ![BEFORE, VERSION].contains(&version) {
             return Err(SaveError::Version { found: version });
         }
         let mut found: Vec<Section> = Vec::new();
@@ -161,10 +164,15 @@ impl<'a> Sections<'a> {
         if rest.at < source.len() {
             return Err(SaveError::Section { found: "more", expected: "nothing after the end" });
         }
-        let sections = Self { source, found };
+        let sections = Self { source, found, version };
         // Nobody asks for the end, which has a checksum all the same.
         sections.one::<()>(Tag::End)?;
         Ok(sections)
+    }
+
+    /// Whether the file is of the version of before.
+    pub(super) fn are_of_before(&self) -> bool {
+        self.version == BEFORE
     }
 
     /// The content of the one section of a kind.

@@ -14,6 +14,7 @@
 //! | 8 | XXH3 of its content |
 //! | length | content |
 
+mod before;
 mod check;
 mod frame;
 mod source;
@@ -25,7 +26,7 @@ use std::{io, thread};
 
 use frame::{Sections, Tag};
 use serde::{Deserialize, Serialize};
-use simworld_core::net::{DrivingSide, NetworkError, NetworkFault, RoadNetwork, StreetPlan};
+use simworld_core::net::{DrivingSide, Intersection, NetworkError, NetworkFault, RoadNetwork, StreetPlan};
 use source::Source;
 use thiserror::Error;
 
@@ -36,8 +37,8 @@ use crate::{City, CityConfig, CityError, Provenance};
 
 /// The first bytes of a saved city: no text, no other format, and damaged by tools that mend line ends.
 pub const MAGIC: [u8; 8] = *b"\x89SIMCTY\n";
-/// Version of the format; it changes when the meaning of any byte does.
-pub const VERSION: u32 = 3;
+/// Version of the format; it changes when the meaning of any byte does. The one before is read too.
+pub const VERSION: u32 = 4;
 /// The usual ending of the name of a saved city.
 pub const EXTENSION: &str = "simcity";
 /// Files larger than this are refused, bytes.
@@ -276,7 +277,11 @@ fn read_things(
     sections: &Sections<'_>,
     counts: &Counts,
 ) -> Result<(StreetPlan, Vec<Building>, Vec<Element>), SaveError> {
-    let plan: StreetPlan = sections.one(Tag::Plan)?;
+    let plan: StreetPlan = if sections.are_of_before() {
+        sections.one::<before::Plan>(Tag::Plan)?.into()
+    } else {
+        sections.one(Tag::Plan)?
+    };
     plan.validate()?;
     let buildings = sections.list(Tag::Buildings, counts.buildings)?;
     let elements = sections.list(Tag::Elements, counts.elements)?;
@@ -294,7 +299,7 @@ fn read_network(
         roads: sections.list(Tag::Roads, counts.roads)?,
         lanes: sections.list(Tag::Lanes, counts.lanes)?,
         connections: sections.list(Tag::Connections, counts.connections)?,
-        intersections: sections.list(Tag::Intersections, counts.intersections)?,
+        intersections: read_intersections(sections, counts.intersections)?,
         sidewalks: sections.list(Tag::Sidewalks, counts.sidewalks)?,
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
@@ -304,4 +309,12 @@ fn read_network(
     };
     network.check()?;
     Ok(network)
+}
+
+fn read_intersections(sections: &Sections<'_>, count: u64) -> Result<Vec<Intersection>, SaveError> {
+    if sections.are_of_before() {
+        let old: Vec<before::Intersection> = sections.list(Tag::Intersections, count)?;
+        return Ok(old.into_iter().map(Into::into).collect());
+    }
+    sections.list(Tag::Intersections, count)
 }
