@@ -291,13 +291,15 @@ pub struct Crossing {
 
 /// A way for walkers alone, away from streets: a trail, a field path, a lane of steps.
 ///
-/// It has no lanes and no kerb. Ways that share an end meet there; an end near a sidewalk leads on to it.
+/// It has no lanes and no kerb. Ways that share an end meet there; an end that joins leads on to a sidewalk near it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Footpath {
     /// Its middle, from end to end, at least two points, m.
     pub path: Vec<Point2>,
     /// Width, m.
     pub width: f64,
+    /// Whether its beginning and its end lead on to the nearest sidewalk, if one is within 15 m.
+    pub joins: [bool; 2],
 }
 
 /// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.

@@ -8,3 +8,4 @@ mod junctions_have_round_kerbs;
 mod petgraph_agrees;
 mod repairs_equal_derivation;
 mod roads_of_every_kind;
+mod ways_for_walkers_join;

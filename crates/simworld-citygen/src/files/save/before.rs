@@ -1,4 +1,5 @@
-//! Files of version 3, whose streets and junctions know no hammerheads. What is read becomes what this version has.
+//! Files of version 3, whose streets and junctions know no hammerheads, and which hold no ways for walkers. What is read
+//! becomes what this version has.
 
 use std::collections::BTreeMap;
 
@@ -6,6 +7,32 @@ use serde::Deserialize;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, CrossingId, RoadId};
 use simworld_core::net::{self, Control, CrossSection, DrivingSide, RoadClass, TurnLanes, TurningCircle};
+
+use crate::Provenance;
+
+/// Everything small.
+#[derive(Deserialize)]
+pub(super) struct Head {
+    config: String,
+    provenance: Provenance,
+    frontage: f64,
+    driving_side: DrivingSide,
+    counts: Counts,
+}
+
+#[derive(Deserialize)]
+struct Counts {
+    buildings: u64,
+    elements: u64,
+    roads: u64,
+    lanes: u64,
+    connections: u64,
+    intersections: u64,
+    sidewalks: u64,
+    crossings: u64,
+    signals: u64,
+    names: u64,
+}
 
 /// Streets and all that a plan has.
 #[derive(Deserialize)]
@@ -49,6 +76,31 @@ pub(super) struct Intersection {
     connections: Vec<ConnectionId>,
     crossings: Vec<CrossingId>,
     corners: Vec<Vec<Point2>>,
+}
+
+impl From<Head> for super::Head {
+    fn from(old: Head) -> Self {
+        let counts = super::Counts {
+            buildings: old.counts.buildings,
+            elements: old.counts.elements,
+            roads: old.counts.roads,
+            lanes: old.counts.lanes,
+            connections: old.counts.connections,
+            intersections: old.counts.intersections,
+            sidewalks: old.counts.sidewalks,
+            crossings: old.counts.crossings,
+            signals: old.counts.signals,
+            names: old.counts.names,
+            footpaths: 0,
+        };
+        Self {
+            config: old.config,
+            provenance: old.provenance,
+            frontage: old.frontage,
+            driving_side: old.driving_side,
+            counts,
+        }
+    }
 }
 
 impl From<Plan> for net::StreetPlan {

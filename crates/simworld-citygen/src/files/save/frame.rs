@@ -29,12 +29,13 @@ pub(super) enum Tag {
     Crossings,
     Signals,
     Names,
+    Footpaths,
     End,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 13] = [
+    const ALL: [(Self, &'static str); 14] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
         (Self::Buildings, "the buildings"),
@@ -47,6 +48,7 @@ impl Tag {
         (Self::Crossings, "the crossings"),
         (Self::Signals, "the signal plans"),
         (Self::Names, "the street names"),
+        (Self::Footpaths, "the ways for walkers"),
         (Self::End, "the end"),
     ];
 
@@ -54,7 +56,11 @@ impl Tag {
         Self::ALL[self as usize - 1].1
     }
 
-    fn from_number(number: u32) -> Option<Self> {
+    /// The tag of a number in a file of some version.
+    fn from_number(number: u32, version: u32) -> Option<Self> {
+        // The version of before ends where ways for walkers stand now.
+        let is_end = version == BEFORE && number == Self::Footpaths as u32;
+        let number = if is_end { Self::End as u32 } else { number };
         Self::ALL.iter().map(|(tag, _)| *tag).find(|tag| *tag as u32 == number)
     }
 }
@@ -151,7 +157,7 @@ impl<'a> Sections<'a> {
         let mut found: Vec<Section> = Vec::new();
         while found.last().is_none_or(|section| section.tag != Tag::End) {
             let within = found.last().map_or("the head", |section| section.tag.name());
-            let tag = Tag::from_number(u32::from_le_bytes(rest.take(within)?));
+            let tag = Tag::from_number(u32::from_le_bytes(rest.take(within)?), version);
             let tag =
                 tag.ok_or(SaveError::Section { found: "an unknown section", expected: "a known one" })?;
             if let Some(before) = found.last().filter(|before| before.tag > tag) {

@@ -1,9 +1,9 @@
 //! A city as one file, without loss: magic, version, then sections of postcard with checksums.
 //!
-//! Saved is what a city is made of: configuration, plan, buildings, elements, and the road network too, although it
-//! follows from the plan: to read it is several times faster than to derive it, and a city stays what it was when a later
-//! version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame are
-//! little-endian.
+//! Saved is what a city is made of: configuration, plan, buildings, elements, ways for walkers, and the road network too,
+//! although it follows from the plan: to read it is several times faster than to derive it, and a city stays what it was
+//! when a later version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame
+//! are little-endian.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -146,6 +146,7 @@ struct Counts {
     crossings: u64,
     signals: u64,
     names: u64,
+    footpaths: u64,
 }
 
 impl Counts {
@@ -162,6 +163,7 @@ impl Counts {
             crossings: network.crossings.len() as u64,
             signals: network.signals.len() as u64,
             names: network.names.len() as u64,
+            footpaths: network.footpaths.len() as u64,
         }
     }
 }
@@ -203,6 +205,7 @@ impl City {
         frames.list(Tag::Crossings, &network.crossings)?;
         frames.list(Tag::Signals, &network.signals)?;
         frames.list(Tag::Names, &network.names)?;
+        frames.list(Tag::Footpaths, &network.footpaths)?;
         frames.end()
     }
 
@@ -218,7 +221,11 @@ impl City {
 
     fn read(source: Source<'_>) -> Result<Self, SaveError> {
         let sections = Sections::of(source)?;
-        let head: Head = sections.one(Tag::Head)?;
+        let head: Head = if sections.are_of_before() {
+            sections.one::<before::Head>(Tag::Head)?.into()
+        } else {
+            sections.one(Tag::Head)?
+        };
         let config = config_from_json(&head.config)?;
         let counts = &head.counts;
         // The roads take about as long as all the rest.
@@ -304,8 +311,7 @@ fn read_network(
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
         names: sections.list(Tag::Names, counts.names)?,
-        // Cities have none; places beyond the city are saved with their world.
-        footpaths: Vec::new(),
+        footpaths: sections.list(Tag::Footpaths, counts.footpaths)?,
     };
     network.check()?;
     Ok(network)
