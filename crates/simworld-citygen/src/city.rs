@@ -23,7 +23,7 @@ pub struct City {
     pub provenance: Provenance,
     /// Centrelines and junctions.
     pub plan: StreetPlan,
-    /// Lanes, crossings, signals and all else that follows from the plan.
+    /// Lanes, crossings, signals and all else that follows from the plan; and the ways for walkers of a real place.
     pub network: Arc<RoadNetwork>,
     /// Buildings, road by road.
     pub buildings: Vec<Building>,

@@ -57,7 +57,7 @@ impl Surveyed {
     }
 
     /// Triangles that make it up.
-    pub(super) fn triangles(&self) -> Vec<[Point2; 3]> {
+    pub(crate) fn triangles(&self) -> Vec<[Point2; 3]> {
         let corners: Vec<Point2> = self.outline.iter().chain(self.courts.iter().flatten()).copied().collect();
         let mut starts = Vec::with_capacity(self.courts.len());
         let mut start = self.outline.len() as u32;

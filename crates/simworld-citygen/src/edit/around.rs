@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::geometry::{Point2, bounds};
-use simworld_core::net::{LORRY_TURNING, PlanChange, Street, StreetPlan};
+use simworld_core::net::{LORRY_TURNING, PlanChange, Street, StreetPlan, TurningRoom};
 
 use super::EditError;
 use super::cells::{Bounds, Cells, inflated};
@@ -17,6 +17,64 @@ const TURNING: f64 = LORRY_TURNING + 60.0;
 const RAMPS: f64 = 250.0;
 /// Bridges of bridges are looked for so often.
 const ROUNDS: usize = 4;
+
+/// What there is to turn round at an end of a street.
+#[derive(Clone, Copy, PartialEq)]
+enum Turning {
+    None,
+    /// A circle of that radius, m.
+    Circle(f64),
+    Hammerhead,
+}
+
+impl Turning {
+    fn at(street: &Street, at_end: bool) -> Self {
+        let end = usize::from(at_end);
+        match (street.turning[end], street.hammerhead[end]) {
+            (radius, _) if radius > 0.0 => Self::Circle(radius),
+            (_, true) => Self::Hammerhead,
+            _ => Self::None,
+        }
+    }
+
+    fn set(self, street: &mut Street, at_end: bool) {
+        let end = usize::from(at_end);
+        street.turning[end] = if let Self::Circle(radius) = self { radius } else { 0.0 };
+        street.hammerhead[end] = self == Self::Hammerhead;
+    }
+
+    /// The best that has room.
+    fn widest(room: &TurningRoom) -> Self {
+        match room.widest() {
+            radius if radius > 0.0 => Self::Circle(radius),
+            _ if room.has_hammerhead() => Self::Hammerhead,
+            _ => Self::None,
+        }
+    }
+
+    /// What is left where something may have come near: the same as long as it has room, or else the best that has, but
+    /// nothing wider.
+    fn left_by(self, room: impl FnOnce() -> TurningRoom) -> Self {
+        match self {
+            Self::None => self,
+            Self::Circle(before) => {
+                let room = room();
+                match Self::widest(&room) {
+                    _ if room.has(before) => self,
+                    Self::Circle(radius) => Self::Circle(radius.min(before)),
+                    other => other,
+                }
+            }
+            Self::Hammerhead => {
+                if room().has_hammerhead() {
+                    self
+                } else {
+                    Self::None
+                }
+            }
+        }
+    }
+}
 
 /// A plan that was changed, and what changed of it.
 pub(super) struct Around<'a> {
@@ -61,8 +119,8 @@ impl Around<'_> {
         self.patch.streets.amend(&mut self.plan.streets, street)
     }
 
-    /// Gives dead ends that the change made, or touched, the turning circle that has room; others near it lose theirs where
-    /// it has no room any more.
+    /// Gives dead ends that the change made, or touched, the turning circle or hammerhead that has room; others near it
+    /// lose theirs where it has no room any more.
     pub(super) fn set_turning(&mut self) {
         let area = inflated(self.area, TURNING);
         let near = self.near(inflated(area, TURNING));
@@ -80,19 +138,19 @@ impl Around<'_> {
             if !is_within(&self.plan.nodes[node], area) {
                 continue;
             }
-            let (before, is_touched) = (street.turning[usize::from(at_end)], self.nodes.contains(&node));
+            let before = Turning::at(street, at_end);
             let is_dead = degrees.get(&node) == Some(&1) && street.level == 0;
             let room = || self.plan.turning_room(index, at_end, &others);
-            let radius = match (is_dead, is_touched) {
-                (false, true) => 0.0,
-                (true, true) => room().widest(),
-                (true, false) if before > 0.0 && !room().has(before) => room().widest().min(before),
-                _ => before,
+            let now = match (is_dead, self.nodes.contains(&node)) {
+                (false, true) => Turning::None,
+                (true, true) => Turning::widest(&room()),
+                (true, false) => before.left_by(room),
+                (false, false) => before,
             };
-            if radius != before
+            if now != before
                 && let Some(street) = self.street_mut(index)
             {
-                street.turning[usize::from(at_end)] = radius;
+                now.set(street, at_end);
             }
         }
     }

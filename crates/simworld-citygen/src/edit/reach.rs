@@ -78,6 +78,8 @@ impl Reach {
             (0..crossings.len())
                 .filter(|number| touches(&[crossings[*number].start, crossings[*number].end])),
         );
+        let ways = &network.footpaths;
+        added.footpaths.extend((0..ways.len()).filter(|way| touches(&ways[*way].path)));
         let places = &network.intersections;
         let near = |number: &usize| {
             let place = &places[*number];

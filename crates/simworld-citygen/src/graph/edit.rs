@@ -209,8 +209,9 @@ impl Edit<'_> {
         // Arrows are before the ends that were.
         first.turns.forward.clear();
         second.turns.backward.clear();
-        // A turning circle is at a dead end, and heights on the way stay where they are.
+        // Room to turn is at a dead end, and heights on the way stay where they are.
         (first.turning[1], second.turning[0]) = (0.0, 0.0);
+        (first.hammerhead[1], second.hammerhead[0]) = (false, false);
         let kept = first.profile.partition_point(|(at, _)| *at < station);
         let beyond = first.profile.split_off(kept);
         let before = first.profile.last().copied().unwrap_or((0.0, from));

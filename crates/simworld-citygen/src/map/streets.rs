@@ -122,6 +122,9 @@ fn sidewalks(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Resul
     for sidewalk in city.network.sidewalks.iter().filter(is_on_ground) {
         draw(&sidewalk.path, sidewalk.width);
     }
+    for way in &city.network.footpaths {
+        draw(&way.path, way.width);
+    }
     let usual = city.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
     for corner in city.network.intersections.iter().flat_map(|intersection| &intersection.corners) {
         draw(corner, usual);

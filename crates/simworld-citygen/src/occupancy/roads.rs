@@ -63,12 +63,15 @@ impl Occupancy {
         }
     }
 
-    /// Takes the turning circle and the walkways round the corners of an intersection.
+    /// Takes the turning circle or hammerhead and the walkways round the corners of an intersection.
     fn add_junction(&mut self, network: &RoadNetwork, intersection: &Intersection) {
         if let Some(circle) = intersection.turning {
             let corner =
                 |eighth: u32| circle.center + direction(f64::from(eighth) * FRAC_PI_4) * circle.radius;
             self.add(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner));
+        }
+        if let Some(head) = intersection.hammerhead {
+            self.add_path(&head.tips, (head.width * 0.5, head.width * 0.5));
         }
         for corner in &intersection.corners {
             let half = intersection_walk(network, &intersection.roads) * 0.5;

@@ -13,7 +13,7 @@ use super::error::Warning;
 use super::ground::{self, Mask};
 use super::place::Place;
 use super::street::{Planned, StreetOptions};
-use super::{CREDIT, things};
+use super::{CREDIT, footway, things};
 use crate::building::Building;
 use crate::element::{self, Setting};
 use crate::lot::Land;
@@ -51,9 +51,9 @@ const FILLED_CELL: f64 = 90.0;
 const FEW: f64 = 150.0;
 
 impl City {
-    /// Builds a city of a real place: its streets, its buildings, and what stands in its streets. The same place,
-    /// settings and seed give the same city; the seed decides of what is generated only. Parks are not invented: their
-    /// share is set to nothing in the configuration of the city.
+    /// Builds a city of a real place: its streets, its ways for walkers, its buildings, and what stands in its streets. The
+    /// same place, settings and seed give the same city; the seed decides of what is generated only. Parks are not
+    /// invented: their share is set to nothing in the configuration of the city.
     ///
     /// # Errors
     /// A setting out of range, or a place without a street that can be built.
@@ -73,20 +73,23 @@ impl City {
         if plan.streets.is_empty() {
             return Err(CityError::NoStreets);
         }
-        for low in crate::terrain::raise(&mut plan, &config.terrain, seed)? {
+        let low = crate::terrain::raise(&mut plan, &config.terrain, seed)?;
+        warnings.extend(low.into_iter().map(|low| {
             let at = Some(place.geographic(Point2::new(low.x, low.y)));
-            warnings.push(Warning { what: low.to_string(), element: None, at });
-        }
-        let network = RoadNetwork::derive_with(&plan, &config.network, &AllThreads)?;
+            Warning { what: low.to_string(), element: None, at }
+        }));
+        let mut network = RoadNetwork::derive_with(&plan, &config.network, &AllThreads)?;
         let mut taken = Occupancy::of_roads_where(&network, |road| !off_ground[road.index()]);
         let zoning = Zoning::new(&config.zoning, seed);
-        let land = if (options.buildings, options.elements) == (Fill::Never, Fill::Never) {
-            Land::default()
-        } else {
-            Land::of_network(&network, &zoning, &config.lots, seed, &taken)
-        };
+        let is_filled = (options.buildings, options.elements) != (Fill::Never, Fill::Never);
+        let of_network = || Land::of_network(&network, &zoning, &config.lots, seed, &taken);
+        let land = if is_filled { of_network() } else { Land::default() };
         let (mut buildings, carriageways) =
             mapped(place, outlines, &network, &off_ground, &mut taken, &mut warnings);
+        network.footpaths = footway::paths(place, &network, &buildings);
+        // All that the map has stands before anything is made up.
+        let mut elements = things::set(place, &network, &carriageways, &mut taken, &mut warnings);
+        footway::take(&network.footpaths, &mut taken);
         if options.buildings == Fill::WhereMissing {
             let open = without_lots_near(&land, &buildings);
             let built = crate::building::build(&network, &open, &config.buildings, seed, &mut taken);
@@ -100,19 +103,13 @@ impl City {
             buildings: &buildings,
             within: None,
         };
-        let mut elements = things::set(place, &network, &carriageways, &mut taken, &mut warnings);
         if options.elements == Fill::WhereMissing {
             let wanted = left_by_the_map(&config.elements, &elements, &network);
             elements.extend(element::furnish(&setting, &wanted, seed, &mut taken));
         }
-        let provenance = Provenance {
-            credit: Some(CREDIT.to_owned()),
-            origin: Some(place.origin),
-            ..Provenance::of_seed(seed)
-        };
         let city = Self {
             config,
-            provenance,
+            provenance: provenance(place, seed),
             plan,
             network: Arc::new(network),
             buildings,
@@ -121,6 +118,11 @@ impl City {
         };
         Ok((city, warnings))
     }
+}
+
+fn provenance(place: &Place, seed: Seed) -> Provenance {
+    let credit = Some(CREDIT.to_owned());
+    Provenance { credit, origin: Some(place.origin), ..Provenance::of_seed(seed) }
 }
 
 /// The buildings of the map that stand, out of the way of traffic, and what is driven on near what the map has.

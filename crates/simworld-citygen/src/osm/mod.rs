@@ -10,6 +10,7 @@
 mod building;
 mod city;
 mod error;
+mod footway;
 mod ground;
 mod place;
 mod raw;

@@ -29,6 +29,8 @@ const SIDEWALK_TOP: f64 = 0.0;
 const LAYER: f64 = 0.05;
 /// Distance of a signal post from the kerb and from its crossing, m.
 const POST_SETBACK: f64 = 0.35;
+/// Longest strip of a way for walkers alone on hills, m.
+const CLIMB: f64 = 10.0;
 /// Ground beyond the outermost street, m.
 pub(crate) const MARGIN: f64 = 120.0;
 
@@ -233,26 +235,61 @@ impl Parts<'_> {
             }
         }
         self.bridges(&mut descs);
-        for place in self.intersections() {
-            let Some(circle) = place.turning else { continue };
-            let pose = pose_facing(Point3::new(circle.center.x, circle.center.y, ROAD_TOP - LAYER), 0.0);
-            let disc = Shape::Cylinder { radius: circle.radius, height: LAYER };
-            let desc = EntityDesc::new(EntityKind::Road, pose, disc);
-            descs.push(lifted(desc, self.heights.height(place.center)));
-        }
+        self.room_to_turn(&mut descs);
         for crossing in self.crossings() {
             let stripe =
                 Stripe { a: crossing.start, b: crossing.end, half: crossing.width * 0.5, extend: 0.0 };
             descs.push(self.layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP));
         }
         for (path, width) in self.walkways() {
-            for piece in path.windows(2).filter(|piece| (piece[1] - piece[0]).norm() > 0.01) {
-                let stripe = Stripe { a: piece[0], b: piece[1], half: width * 0.5, extend: 0.0 };
-                descs.push(self.layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP));
+            self.walk(path, width, &mut descs);
+        }
+        for way in self.footpaths() {
+            if self.heights.is_level() {
+                self.walk(&way.path, way.width, &mut descs);
+            } else {
+                // Away from streets the ground rises and falls on the way.
+                self.walk(&in_pieces(&way.path, CLIMB), way.width, &mut descs);
             }
         }
         descs
     }
+
+    /// The strips of a way for walkers.
+    fn walk(&self, path: &[Point2], width: f64, descs: &mut Vec<EntityDesc>) {
+        for piece in path.windows(2).filter(|piece| (piece[1] - piece[0]).norm() > 0.01) {
+            let stripe = Stripe { a: piece[0], b: piece[1], half: width * 0.5, extend: 0.0 };
+            descs.push(self.layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP));
+        }
+    }
+
+    /// Turning circles, and the heads of hammerheads.
+    fn room_to_turn(&self, descs: &mut Vec<EntityDesc>) {
+        for place in self.intersections() {
+            let circle = place.turning.map(|circle| {
+                let middle = Point3::new(circle.center.x, circle.center.y, ROAD_TOP - LAYER);
+                let disc = Shape::Cylinder { radius: circle.radius, height: LAYER };
+                EntityDesc::new(EntityKind::Road, pose_facing(middle, 0.0), disc)
+            });
+            let head = place.hammerhead.map(|head| {
+                let stripe = Stripe { a: head.tips[0], b: head.tips[1], half: head.width * 0.5, extend: 0.0 };
+                layer(EntityKind::Road, &stripe, ROAD_TOP)
+            });
+            let found = circle.into_iter().chain(head);
+            descs.extend(found.map(|desc| lifted(desc, self.heights.height(place.center))));
+        }
+    }
+}
+
+/// A line with as many points as no piece needs to be longer than so much, m.
+fn in_pieces(path: &[Point2], longest: f64) -> Vec<Point2> {
+    let mut points: Vec<Point2> = path.first().copied().into_iter().collect();
+    for pair in path.windows(2) {
+        let piece = pair[1] - pair[0];
+        let count = (piece.norm() / longest).ceil().max(1.0);
+        points.extend((1..=count as u32).map(|index| pair[0] + piece * (f64::from(index) / count)));
+    }
+    points
 }
 
 /// The same, so much higher.

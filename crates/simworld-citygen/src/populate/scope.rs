@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
-use simworld_core::net::{Crossing, Intersection, Road, Side};
+use simworld_core::net::{Crossing, Footpath, Intersection, Road, Side};
 
 use super::Parts;
 use crate::element::Extent;
@@ -28,6 +28,7 @@ pub(crate) struct Touched {
     pub(crate) intersections: BTreeSet<usize>,
     pub(crate) sidewalks: BTreeSet<usize>,
     pub(crate) crossings: BTreeSet<usize>,
+    pub(crate) footpaths: BTreeSet<usize>,
 }
 
 impl Scope<'_> {
@@ -78,6 +79,12 @@ impl Parts<'_> {
         let is_named = matches!(self.scope, Scope::Touched(_));
         let crossings = numbers.into_iter().map(|number| &self.network.crossings[number]);
         crossings.filter(move |crossing| is_named || self.has_road(crossing.road))
+    }
+
+    /// The ways for walkers alone; tiles have none.
+    pub(super) fn footpaths(&self) -> impl Iterator<Item = &Footpath> {
+        let numbers = self.scope.numbers(self.network.footpaths.len(), |touched| &touched.footpaths);
+        numbers.into_iter().map(|number| &self.network.footpaths[number])
     }
 
     /// The walkways along streets and round corners, and the width of each. Decks carry their own.

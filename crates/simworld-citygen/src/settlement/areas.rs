@@ -45,7 +45,7 @@ impl Area {
     }
 }
 
-/// What the streets cover: their kerbs, turning circles and sidewalks within.
+/// What the streets cover: their kerbs, turning circles, hammerheads and sidewalks within.
 fn paved(network: &RoadNetwork) -> Option<(Point2, Point2)> {
     let walk = network.sidewalks.iter().map(|walk| walk.width).fold(0.0, f64::max);
     let roads = network.roads.iter().flat_map(|road| {
@@ -54,7 +54,10 @@ fn paved(network: &RoadNetwork) -> Option<(Point2, Point2)> {
         road.centerline.iter().map(move |point| (*point, reach * std::f64::consts::SQRT_2))
     });
     let circles = network.intersections.iter().filter_map(|place| place.turning);
-    let discs = roads.chain(circles.map(|circle| (circle.center, circle.radius)));
+    let heads = network.intersections.iter().filter_map(|place| place.hammerhead);
+    let tips =
+        heads.flat_map(|head| head.tips.map(|tip| (tip, head.width * std::f64::consts::FRAC_1_SQRT_2)));
+    let discs = roads.chain(circles.map(|circle| (circle.center, circle.radius))).chain(tips);
     let ends = discs.map(|(point, reach)| {
         let out = Vector2::repeat(reach + walk);
         (point - out, point + out)

@@ -239,6 +239,11 @@ fn circles(city: &City) -> Vec<f64> {
     places.filter_map(|place| place.turning).map(|circle| circle.radius).collect()
 }
 
+/// The number of its hammerheads.
+fn heads(city: &City) -> usize {
+    city.network.intersections.iter().filter(|place| place.hammerhead.is_some()).count()
+}
+
 #[test]
 fn a_street_end_gets_its_turning_circle_and_loses_it_to_a_street_beside() {
     let plan = StreetPlan::grid(2, 2, 400.0);
@@ -252,14 +257,17 @@ fn a_street_end_gets_its_turning_circle_and_loses_it_to_a_street_beside() {
     let mut undos = vec![editor.apply(&lane((200.0, 0.0), (200.0, 150.0))).expect("there is room")];
     assert_eq!(circles(editor.city()), [LORRY_TURNING]);
     assert_like_the_whole(editor.city(), "a dead end");
-    // A street close by leaves no room for lorries, and one right beside it none at all.
+    // A street close by leaves no room for lorries, and one right before it room for a hammerhead alone.
     undos.push(editor.apply(&lane((220.0, 0.0), (220.0, 400.0))).expect("there is room"));
     assert_eq!(circles(editor.city()), [CAR_TURNING]);
     assert_like_the_whole(editor.city(), "a street beside a dead end");
     undos.push(editor.apply(&lane((0.0, 165.0), (220.0, 165.0))).expect("there is room"));
     assert!(circles(editor.city()).is_empty());
-    // An end that is none any more has no circle, and one that a removal leaves has one.
+    assert_eq!(heads(editor.city()), 1);
+    assert_like_the_whole(editor.city(), "a street before a dead end");
+    // An end that is none any more has no room to turn, and one that a removal leaves has a circle.
     undos.push(editor.apply(&lane((200.0, 150.0), (200.0, 165.0))).expect("a street of 15 m can be built"));
+    assert_eq!(heads(editor.city()), 0);
     assert_eq!(editor.city().network.check(), Ok(()));
     let last = |editor: &CityEditor, at: (f64, f64)| {
         let at = Point2::new(at.0, at.1);

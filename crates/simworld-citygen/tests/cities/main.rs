@@ -6,6 +6,7 @@ mod bad_input_is_named;
 mod blocks_are_divided_into_lots;
 mod buses_pass_in_bends;
 mod cities_are_built_up;
+mod dead_ends_have_hammerheads;
 mod edits_equal_regeneration;
 mod elements_leave_the_way_free;
 mod every_place_can_be_walked_to;

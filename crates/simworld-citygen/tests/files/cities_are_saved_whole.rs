@@ -147,7 +147,7 @@ proptest! {
     }
 
     #[test]
-    fn forgeries_are_refused_or_sound(tag in 1_u32..13, at in 0.0..1.0_f64, value in any::<u8>()) {
+    fn forgeries_are_refused_or_sound(tag in 1_u32..15, at in 0.0..1.0_f64, value in any::<u8>()) {
         let saved = bytes(&city(3, 5));
         let forged = forge(&saved, tag, |content| {
             let index = (at * content.len() as f64) as usize;

@@ -10,3 +10,4 @@ mod osm_common;
 mod real_places_become_cities;
 mod tags_become_lanes;
 mod turns_are_those_of_the_map;
+mod ways_for_walkers;

@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-use super::{Phase, RoadNetwork, SignalGroup};
+use super::{Hammerhead, Phase, RoadNetwork, SignalGroup};
 use crate::geometry::Point2;
 use crate::id::ConnectionId;
 
@@ -159,9 +159,11 @@ impl RoadNetwork {
                 && place.kerbs.iter().all(|kerb| (*kerb as usize) < place.outline.len());
             let points = place.outline.iter().chain(place.corners.iter().flatten());
             let circle = place.turning.is_none_or(|it| is_near(&it.center) && is_within(it.radius, WIDEST));
+            let is_head = |it: Hammerhead| it.tips.iter().all(is_near) && is_within(it.width, WIDEST);
+            let head = place.hammerhead.is_none_or(is_head);
             match () {
                 () if !(roads && ways && walks && corners && signals) => LOST,
-                () if !circle => SIZELESS,
+                () if !(circle && head) => SIZELESS,
                 () if !kerbs || place.kerbs.len() > place.roads.len() => DISORDERED,
                 () if place.height.is_nan() || place.height.abs() > FARTHEST => SHAPELESS,
                 () if !(is_near(&place.center) && points.into_iter().all(is_near)) => SHAPELESS,

@@ -4,6 +4,7 @@ mod assemble;
 mod check;
 mod derive;
 mod gaps;
+mod hammerhead;
 #[cfg(feature = "hierarchy")]
 mod hierarchy;
 mod network;
@@ -22,11 +23,12 @@ pub use assemble::{NetworkBuilder, NewLane, NewRoad};
 pub use check::NetworkFault;
 pub use derive::{Alone, NetworkConfig, NetworkError, Workers};
 pub use gaps::{CriticalGaps, time_over};
+pub use hammerhead::{HAMMERHEAD_ARM, HAMMERHEAD_WIDTH};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
 pub use network::{
-    Connection, Control, Crossing, Footpath, Intersection, Lane, Road, RoadClass, RoadNetwork, Side,
-    Sidewalk, Strip, Turn, TurningCircle,
+    Connection, Control, Crossing, Footpath, Hammerhead, Intersection, Lane, Road, RoadClass, RoadNetwork,
+    Side, Sidewalk, Strip, Turn, TurningCircle,
 };
 pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};

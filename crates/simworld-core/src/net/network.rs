@@ -200,6 +200,15 @@ pub struct TurningCircle {
     pub radius: f64,
 }
 
+/// The head of a T across the end of a street, in which vehicles turn where a circle has no room.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hammerhead {
+    /// The middles of the kerbs at the tips of its two arms, m.
+    pub tips: [Point2; 2],
+    /// Its width, m.
+    pub width: f64,
+}
+
 /// Where roads meet, or where one ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intersection {
@@ -226,6 +235,8 @@ pub struct Intersection {
     /// The walkways round its corners: the i-th leads from the left sidewalk of `roads[i]`, seen from here, to the
     /// right sidewalk of the next road, ends included; without points where one of the two is missing.
     pub corners: Vec<Vec<Point2>>,
+    /// The T in which vehicles turn, at a dead end that has it instead of a circle.
+    pub hammerhead: Option<Hammerhead>,
 }
 
 impl Intersection {
@@ -280,13 +291,15 @@ pub struct Crossing {
 
 /// A way for walkers alone, away from streets: a trail, a field path, a lane of steps.
 ///
-/// It has no lanes and no kerb. Ways that share an end meet there; an end near a sidewalk leads on to it.
+/// It has no lanes and no kerb. Ways that share an end meet there; an end that joins leads on to a sidewalk near it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Footpath {
     /// Its middle, from end to end, at least two points, m.
     pub path: Vec<Point2>,
     /// Width, m.
     pub width: f64,
+    /// Whether its beginning and its end lead on to the nearest sidewalk, if one is within 15 m.
+    pub joins: [bool; 2],
 }
 
 /// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.

@@ -40,6 +40,10 @@ pub struct Street {
     /// Heights on its way, as of a bridge: distance along the centreline from its beginning and height above the ground
     /// level of the world, m, ascending by distance. Between them and its nodes it rises evenly.
     pub profile: Vec<(f64, f64)>,
+    /// Whether there is a hammerhead at its beginning and at its end, if it is a dead end there and has no turning circle:
+    /// a T as wide as [`HAMMERHEAD_WIDTH`](super::HAMMERHEAD_WIDTH), whose far kerb passes the end. What has no room along
+    /// the street is left out. See [`StreetPlan::make_turning_room`].
+    pub hammerhead: [bool; 2],
 }
 
 impl Street {
@@ -58,6 +62,7 @@ impl Street {
             level: 0,
             turning: [0.0; 2],
             profile: Vec::new(),
+            hammerhead: [false; 2],
         }
     }
 }

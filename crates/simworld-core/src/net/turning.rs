@@ -1,5 +1,8 @@
 //! Room to turn round at dead ends.
 
+use std::collections::BTreeMap;
+
+use super::hammerhead::{HAMMERHEAD_REACH, Wanted, walk_beside};
 use super::{StreetPlan, polyline};
 use crate::geometry::Point2;
 
@@ -18,9 +21,9 @@ const SHARE: f64 = 0.4;
 const CELL: f64 = 50.0;
 
 impl StreetPlan {
-    /// Gives every dead end that has room for it a turning circle: one for lorries, or else one for cars. Dead ends
-    /// where other streets are too near, and those of streets that are too short, stay as wide as their streets; so do
-    /// those off the ground.
+    /// Gives every dead end that has room for it a turning circle: one for lorries, or else one for cars; and a hammerhead
+    /// where no circle has room. Dead ends where other streets are too near, and those of streets that are too short, stay
+    /// as wide as their streets; so do those off the ground.
     ///
     /// ```
     /// use simworld_core::net::StreetPlan;
@@ -40,39 +43,61 @@ impl StreetPlan {
         }
         let lines: Vec<Vec<Point2>> = self.streets.iter().map(|street| self.centerline(street)).collect();
         let cells = cells(&lines);
-        let circles: Vec<(usize, bool, f64)> = (0..self.streets.len())
+        let rooms: Vec<(usize, bool, TurningRoom)> = (0..self.streets.len())
             .flat_map(|index| [(index, false), (index, true)])
             .filter_map(|(index, at_end)| {
                 let street = &self.streets[index];
                 let node = if at_end { street.to } else { street.from };
                 let is_asked = degrees[node] == 1 && street.level == 0;
                 is_asked.then(|| {
-                    let others = near(&cells, self.nodes[node]).map(|other| (other, lines[other].as_slice()));
-                    let room = self.room_among(index, at_end, &lines[index], others);
-                    (index, at_end, room.widest())
+                    let others = lines_near(&cells, &lines, self.nodes[node]);
+                    (index, at_end, self.room_among(index, at_end, &lines[index], others))
                 })
             })
             .collect();
-        for (index, at_end, radius) in circles {
-            self.streets[index].turning[usize::from(at_end)] = radius;
+        for (index, at_end, room) in &rooms {
+            self.streets[*index].turning[usize::from(*at_end)] = room.widest();
+        }
+        // Heads keep off the circles, which are known now.
+        let has_head = |(index, at_end, room): &(usize, bool, TurningRoom)| {
+            let street = &self.streets[*index];
+            let node = if *at_end { street.to } else { street.from };
+            let wanted = Wanted { street: *index, at_end: *at_end, line: &lines[*index] };
+            let others = lines_near(&cells, &lines, self.nodes[node]);
+            room.asks_for_head() && self.has_room_for_head(wanted, others, |node| degrees[node] == 1)
+        };
+        let heads: Vec<bool> = rooms.iter().map(has_head).collect();
+        for ((index, at_end, _), has_head) in rooms.into_iter().zip(heads) {
+            self.streets[index].hammerhead[usize::from(at_end)] = has_head;
         }
     }
 
-    /// The room for a turning circle at an end of a street, among some other streets: all that lie within 60 m of it.
+    /// The room for a turning circle or a hammerhead at an end of a street, among some other streets with the circles that
+    /// they have: all that lie within 60 m of it.
     ///
     /// ```
     /// use simworld_core::net::StreetPlan;
     /// let plan = StreetPlan::crossroads(120.0);
     /// let room = plan.turning_room(0, true, &[1, 2, 3]);
     /// assert_eq!(room.widest(), 13.5);
-    /// assert!(room.has(9.1) && !room.has(50.0));
+    /// assert!(room.has(9.1) && !room.has(50.0) && room.has_hammerhead());
     /// ```
     pub fn turning_room(&self, street: usize, at_end: bool, others: &[usize]) -> TurningRoom {
+        let mut degrees: BTreeMap<usize, u32> = BTreeMap::new();
+        for known in others.iter().filter(|other| **other != street).chain([&street]) {
+            for end in [self.streets[*known].from, self.streets[*known].to] {
+                *degrees.entry(end).or_default() += 1;
+            }
+        }
         let lines: Vec<Vec<Point2>> =
             others.iter().map(|other| self.centerline(&self.streets[*other])).collect();
         let line = self.centerline(&self.streets[street]);
-        let others = others.iter().copied().zip(lines.iter().map(Vec::as_slice));
-        self.room_among(street, at_end, &line, others)
+        let others = || others.iter().copied().zip(lines.iter().map(Vec::as_slice));
+        let mut room = self.room_among(street, at_end, &line, others());
+        let wanted = Wanted { street, at_end, line: &line };
+        room.head = room.is_long_enough()
+            && self.has_room_for_head(wanted, others(), |node| degrees.get(&node) == Some(&1));
+        room
     }
 
     fn room_among<'a>(
@@ -84,8 +109,7 @@ impl StreetPlan {
     ) -> TurningRoom {
         let own = &self.streets[street];
         let section = self.section(own);
-        let (left, right) = section.kerbs();
-        let walk = (section.left_of_reference() - left).max(section.right_of_reference() - right);
+        let ((left, right), walk) = (section.kerbs(), walk_beside(section));
         let at = self.nodes[if at_end { own.to } else { own.from }];
         let mut gap = f64::INFINITY;
         for (other, line) in others.filter(|(other, _)| *other != street) {
@@ -97,11 +121,12 @@ impl StreetPlan {
             let shared = ends.iter().any(|end| (self.nodes[*end] - at).norm() <= distance + 1e-9);
             gap = gap.min(if shared { distance * 0.5 } else { distance - reach });
         }
-        TurningRoom { least: (left + right) * 0.5 + 1.5, most: polyline::length(line) * SHARE, walk, gap }
+        let (least, most) = ((left + right) * 0.5 + 1.5, polyline::length(line) * SHARE);
+        TurningRoom { least, most, walk, gap, head: false }
     }
 }
 
-/// The room for a turning circle at an end of a street.
+/// The room for a turning circle, or for a hammerhead, at an end of a street.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurningRoom {
     /// A circle that is no wider is no wider than the street, m.
@@ -112,6 +137,8 @@ pub struct TurningRoom {
     walk: f64,
     /// Land between the end and the nearest street, m.
     gap: f64,
+    /// Whether a hammerhead has room.
+    head: bool,
 }
 
 impl TurningRoom {
@@ -123,6 +150,21 @@ impl TurningRoom {
     /// Whether a circle of a radius, m, has room.
     pub fn has(&self, radius: f64) -> bool {
         self.fits(radius, 0.0)
+    }
+
+    /// Whether a hammerhead has room; what a circle asks for is another matter.
+    pub fn has_hammerhead(&self) -> bool {
+        self.head
+    }
+
+    /// Whether the street is not too short for a hammerhead with its flares.
+    fn is_long_enough(&self) -> bool {
+        HAMMERHEAD_REACH <= self.most
+    }
+
+    /// Whether no circle has room, and the street is long enough for a head.
+    fn asks_for_head(&self) -> bool {
+        self.widest() == 0.0 && self.is_long_enough()
     }
 
     fn fits(&self, radius: f64, land: f64) -> bool {
@@ -151,6 +193,15 @@ fn cells(lines: &[Vec<Point2>]) -> Cells {
     cells.sort_unstable();
     cells.dedup();
     cells
+}
+
+/// The streets in the cells about a point with their centrelines, some of them more than once.
+fn lines_near<'a>(
+    cells: &'a Cells,
+    lines: &'a [Vec<Point2>],
+    at: Point2,
+) -> impl Iterator<Item = (usize, &'a [Point2])> + 'a {
+    near(cells, at).map(move |other| (other, lines[other].as_slice()))
 }
 
 /// Streets in the cells about a point, some of them more than once.

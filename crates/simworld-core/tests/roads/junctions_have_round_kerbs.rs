@@ -138,7 +138,7 @@ fn circles_are_given_only_where_they_have_room() {
     assert_eq!(plan.streets[0].turning, [LORRY_TURNING, CAR_TURNING]);
 }
 
-/// Stars of all classes and widths, with dead ends of all radii.
+/// Stars of all classes and widths, with dead ends of all radii; hammerheads where a circle would be no wider than its street.
 fn star() -> impl Strategy<Value = StreetPlan> {
     let arm = (0.6..1.4_f64, 60.0..160.0_f64, 0_u8..3, 0_u8..3, 0.0..5.0_f64, 0.0..20.0_f64, 0..3_u8);
     (prop::collection::vec(arm, 1..7), any::<bool>()).prop_map(|(arms, left)| {
@@ -154,7 +154,8 @@ fn star() -> impl Strategy<Value = StreetPlan> {
             let backward = if forward == 0 { backward.max(1) } else { backward };
             let section = plan.add_section(CrossSection::plain(forward, backward, 3.2, walk));
             let class = [RoadClass::Local, RoadClass::Arterial, RoadClass::Highway][usize::from(class)];
-            plan.streets.push(Street { section, class, turning: [0.0, turning], ..Street::simple(0, to) });
+            let (turning, hammerhead) = ([0.0, turning], [true; 2]);
+            plan.streets.push(Street { section, class, turning, hammerhead, ..Street::simple(0, to) });
         }
         plan.driving_side = if left { DrivingSide::Left } else { DrivingSide::Right };
         plan

@@ -98,7 +98,8 @@ fn make(plan: &mut StreetPlan, edit: &Edit) -> Option<PlanChange> {
                 plan.nodes.truncate(count);
                 return None;
             }
-            plan.streets.push(Street { section: (*b % 3) as u32, ..Street::simple(from, to) });
+            let (section, hammerhead) = ((*b % 3) as u32, [true; 2]);
+            plan.streets.push(Street { section, hammerhead, ..Street::simple(from, to) });
         }
         Edit::MoveNode(rank, shift) => {
             let index = rank % plan.nodes.len();

@@ -9,6 +9,8 @@ use simworld_core::hash::StateHasher;
 use super::source::Source;
 use super::{MAGIC, SaveError, VERSION};
 
+/// The version of before, which is read still.
+const BEFORE: u32 = VERSION - 1;
 /// Items a section of a list.
 const CHUNK: usize = 1 << 16;
 
@@ -27,12 +29,13 @@ pub(super) enum Tag {
     Crossings,
     Signals,
     Names,
+    Footpaths,
     End,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 13] = [
+    const ALL: [(Self, &'static str); 14] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
         (Self::Buildings, "the buildings"),
@@ -45,6 +48,7 @@ impl Tag {
         (Self::Crossings, "the crossings"),
         (Self::Signals, "the signal plans"),
         (Self::Names, "the street names"),
+        (Self::Footpaths, "the ways for walkers"),
         (Self::End, "the end"),
     ];
 
@@ -52,7 +56,11 @@ impl Tag {
         Self::ALL[self as usize - 1].1
     }
 
-    fn from_number(number: u32) -> Option<Self> {
+    /// The tag of a number in a file of some version.
+    fn from_number(number: u32, version: u32) -> Option<Self> {
+        // The version of before ends where ways for walkers stand now.
+        let is_end = version == BEFORE && number == Self::Footpaths as u32;
+        let number = if is_end { Self::End as u32 } else { number };
         Self::ALL.iter().map(|(tag, _)| *tag).find(|tag| *tag as u32 == number)
     }
 }
@@ -123,6 +131,7 @@ impl<'a, W: Write> Writer<'a, W> {
 pub(super) struct Sections<'a> {
     source: Source<'a>,
     found: Vec<Section>,
+    version: u32,
 }
 
 struct Section {
@@ -142,13 +151,13 @@ impl<'a> Sections<'a> {
         let mut rest = Rest { source: &source, at: 0 };
         rest.take::<8>("the magic")?;
         let version = u32::from_le_bytes(rest.take("the version")?);
-        if version != VERSION {
+        if ![BEFORE, VERSION].contains(&version) {
             return Err(SaveError::Version { found: version });
         }
         let mut found: Vec<Section> = Vec::new();
         while found.last().is_none_or(|section| section.tag != Tag::End) {
             let within = found.last().map_or("the head", |section| section.tag.name());
-            let tag = Tag::from_number(u32::from_le_bytes(rest.take(within)?));
+            let tag = Tag::from_number(u32::from_le_bytes(rest.take(within)?), version);
             let tag =
                 tag.ok_or(SaveError::Section { found: "an unknown section", expected: "a known one" })?;
             if let Some(before) = found.last().filter(|before| before.tag > tag) {
@@ -161,10 +170,15 @@ impl<'a> Sections<'a> {
         if rest.at < source.len() {
             return Err(SaveError::Section { found: "more", expected: "nothing after the end" });
         }
-        let sections = Self { source, found };
+        let sections = Self { source, found, version };
         // Nobody asks for the end, which has a checksum all the same.
         sections.one::<()>(Tag::End)?;
         Ok(sections)
+    }
+
+    /// Whether the file is of the version of before.
+    pub(super) fn are_of_before(&self) -> bool {
+        self.version == BEFORE
     }
 
     /// The content of the one section of a kind.

@@ -1,9 +1,9 @@
 //! A city as one file, without loss: magic, version, then sections of postcard with checksums.
 //!
-//! Saved is what a city is made of: configuration, plan, buildings, elements, and the road network too, although it
-//! follows from the plan: to read it is several times faster than to derive it, and a city stays what it was when a later
-//! version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame are
-//! little-endian.
+//! Saved is what a city is made of: configuration, plan, buildings, elements, ways for walkers, and the road network too,
+//! although it follows from the plan: to read it is several times faster than to derive it, and a city stays what it was
+//! when a later version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame
+//! are little-endian.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -14,6 +14,7 @@
 //! | 8 | XXH3 of its content |
 //! | length | content |
 
+mod before;
 mod check;
 mod frame;
 mod source;
@@ -25,7 +26,7 @@ use std::{io, thread};
 
 use frame::{Sections, Tag};
 use serde::{Deserialize, Serialize};
-use simworld_core::net::{DrivingSide, NetworkError, NetworkFault, RoadNetwork, StreetPlan};
+use simworld_core::net::{DrivingSide, Intersection, NetworkError, NetworkFault, RoadNetwork, StreetPlan};
 use source::Source;
 use thiserror::Error;
 
@@ -36,8 +37,8 @@ use crate::{City, CityConfig, CityError, Provenance};
 
 /// The first bytes of a saved city: no text, no other format, and damaged by tools that mend line ends.
 pub const MAGIC: [u8; 8] = *b"\x89SIMCTY\n";
-/// Version of the format; it changes when the meaning of any byte does.
-pub const VERSION: u32 = 3;
+/// Version of the format; it changes when the meaning of any byte does. The one before is read too.
+pub const VERSION: u32 = 4;
 /// The usual ending of the name of a saved city.
 pub const EXTENSION: &str = "simcity";
 /// Files larger than this are refused, bytes.
@@ -145,6 +146,7 @@ struct Counts {
     crossings: u64,
     signals: u64,
     names: u64,
+    footpaths: u64,
 }
 
 impl Counts {
@@ -161,6 +163,7 @@ impl Counts {
             crossings: network.crossings.len() as u64,
             signals: network.signals.len() as u64,
             names: network.names.len() as u64,
+            footpaths: network.footpaths.len() as u64,
         }
     }
 }
@@ -202,6 +205,7 @@ impl City {
         frames.list(Tag::Crossings, &network.crossings)?;
         frames.list(Tag::Signals, &network.signals)?;
         frames.list(Tag::Names, &network.names)?;
+        frames.list(Tag::Footpaths, &network.footpaths)?;
         frames.end()
     }
 
@@ -217,7 +221,11 @@ impl City {
 
     fn read(source: Source<'_>) -> Result<Self, SaveError> {
         let sections = Sections::of(source)?;
-        let head: Head = sections.one(Tag::Head)?;
+        let head: Head = if sections.are_of_before() {
+            sections.one::<before::Head>(Tag::Head)?.into()
+        } else {
+            sections.one(Tag::Head)?
+        };
         let config = config_from_json(&head.config)?;
         let counts = &head.counts;
         // The roads take about as long as all the rest.
@@ -276,7 +284,11 @@ fn read_things(
     sections: &Sections<'_>,
     counts: &Counts,
 ) -> Result<(StreetPlan, Vec<Building>, Vec<Element>), SaveError> {
-    let plan: StreetPlan = sections.one(Tag::Plan)?;
+    let plan: StreetPlan = if sections.are_of_before() {
+        sections.one::<before::Plan>(Tag::Plan)?.into()
+    } else {
+        sections.one(Tag::Plan)?
+    };
     plan.validate()?;
     let buildings = sections.list(Tag::Buildings, counts.buildings)?;
     let elements = sections.list(Tag::Elements, counts.elements)?;
@@ -294,14 +306,21 @@ fn read_network(
         roads: sections.list(Tag::Roads, counts.roads)?,
         lanes: sections.list(Tag::Lanes, counts.lanes)?,
         connections: sections.list(Tag::Connections, counts.connections)?,
-        intersections: sections.list(Tag::Intersections, counts.intersections)?,
+        intersections: read_intersections(sections, counts.intersections)?,
         sidewalks: sections.list(Tag::Sidewalks, counts.sidewalks)?,
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
         names: sections.list(Tag::Names, counts.names)?,
-        // Cities have none; places beyond the city are saved with their world.
-        footpaths: Vec::new(),
+        footpaths: sections.list(Tag::Footpaths, counts.footpaths)?,
     };
     network.check()?;
     Ok(network)
+}
+
+fn read_intersections(sections: &Sections<'_>, count: u64) -> Result<Vec<Intersection>, SaveError> {
+    if sections.are_of_before() {
+        let old: Vec<before::Intersection> = sections.list(Tag::Intersections, count)?;
+        return Ok(old.into_iter().map(Into::into).collect());
+    }
+    sections.list(Tag::Intersections, count)
 }

@@ -9,7 +9,8 @@ use crate::osm::tags::Key;
 /// A circle this near to a dead end is its, m: streets are drawn up to its middle or up to its rim.
 const NEAR: f64 = 15.0;
 
-/// Gives dead ends at which the map has a turning circle or loop the widest that has room; others have none.
+/// Gives dead ends at which the map has a turning circle or loop the widest that has room, or a hammerhead where none has;
+/// others have none.
 /// <https://wiki.openstreetmap.org/wiki/Tag:highway%3Dturning_circle>
 pub(super) fn set(plan: &mut StreetPlan, place: &Place) {
     const KINDS: [&str; 2] = ["turning_circle", "turning_loop"];
@@ -26,7 +27,7 @@ pub(super) fn set(plan: &mut StreetPlan, place: &Place) {
             let from = circles.partition_point(|circle| circle.x < at.x - NEAR);
             let mut near = circles[from..].iter().take_while(|circle| circle.x <= at.x + NEAR);
             if !near.any(|circle| (circle - at).norm() <= NEAR) {
-                street.turning[end] = 0.0;
+                (street.turning[end], street.hammerhead[end]) = (0.0, false);
             }
         }
     }

@@ -31,6 +31,7 @@ use super::side::is_left_hand;
 use crate::{CityError, RoadSource};
 use kind::Kind;
 pub(super) use kind::is_street;
+pub(super) use split::{level, uses};
 
 /// Which service roads become streets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -45,8 +45,8 @@ pub(super) fn web_of(
     splitter.web
 }
 
-/// How often streets pass each node; their ends count twice, so that two and more is where streets are split.
-fn uses<'a>(place: &Place, ways: impl Iterator<Item = &'a Way>) -> Vec<u8> {
+/// How often some ways pass each node; their ends count twice, so that two and more is where they are split.
+pub(in crate::osm) fn uses<'a>(place: &Place, ways: impl Iterator<Item = &'a Way>) -> Vec<u8> {
     let mut uses = vec![0_u8; place.raw.node_count()];
     let mut count = |node: u32, times: u8| {
         if let Some(uses) = uses.get_mut(node as usize) {
@@ -166,7 +166,7 @@ impl<'a> Splitter<'a> {
 }
 
 /// Above or below the ground: the tag, or one for bridges and tunnels without.
-fn level(tags: &Tags<'_>) -> i8 {
+pub(in crate::osm) fn level(tags: &Tags<'_>) -> i8 {
     let tagged =
         tags.get(Key::Layer).and_then(|layer| layer.parse::<i8>().ok()).filter(|layer| layer.abs() <= 10);
     let is_tunnel =

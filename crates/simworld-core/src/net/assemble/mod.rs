@@ -109,6 +109,7 @@ impl NetworkBuilder {
             connections: Vec::new(),
             crossings: Vec::new(),
             corners: Vec::new(),
+            hammerhead: None,
         });
         IntersectionId::from_index(self.network.intersections.len() - 1)
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::legs::Leg;
 use super::trace::{Trace, Traces};
-use super::{cycles, kerbs, near_side};
+use super::{cycles, hammerhead, kerbs, near_side};
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
@@ -20,7 +20,7 @@ const TOUCHING: f64 = 2.4;
 const STRAIGHT: f64 = 0.7;
 /// Nobody is stopped by a light on lanes shorter than this, m: a bus would stand in the junction behind.
 const INNER: f64 = 12.0;
-/// Distance between the kerb of a turning circle and a lane's width about the way round it, m.
+/// Distance between the kerb of a turning circle or a hammerhead and a lane's width about the way round it, m.
 const KERB_CLEARANCE: f64 = 0.5;
 
 /// The connections of some intersections, under construction; their numbers begin at zero.
@@ -257,8 +257,8 @@ struct Place<'a> {
     leg: usize,
 }
 
-/// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve that keeps off
-/// the kerb.
+/// The middle of the way from one lane to another: round the turning circle or in the hammerhead of a dead end, or a smooth
+/// curve that keeps off the kerb.
 fn path(
     network: &RoadNetwork,
     place: &Place<'_>,
@@ -269,13 +269,15 @@ fn path(
     let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
     let (end, end_heading) = polyline::at(&exit.path, 0.0);
-    if turn == Turn::UTurn && leg.turning > 0.0 {
+    if turn == Turn::UTurn && (leg.turning > 0.0 || leg.hammerhead) {
         let ahead = leg.direction();
         let left = |point: Point2| ahead.perp(&(point - leg.node));
         let lanes = arriving(network, leg);
         let outside = lanes.iter().rev().take_while(|lane| **lane != from).count() as f64;
         let keep = KERB_CLEARANCE + entry.width * (0.5 + outside);
-        if let Some(mut path) = kerbs::turning_path(leg, (left(start), -left(end)), keep) {
+        let between = (left(start), -left(end));
+        let round = if leg.hammerhead { hammerhead::turning_path } else { kerbs::turning_path };
+        if let Some(mut path) = round(leg, between, keep) {
             // A street that bends before its end has its lanes end a little beside.
             let last = path.len() - 1;
             (path[0], path[last]) = (start, end);

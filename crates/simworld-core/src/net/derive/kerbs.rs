@@ -1,5 +1,6 @@
 //! Kerbs round a junction: rounded corners, the turning circle at a dead end, and the outline that they make.
 
+use super::hammerhead;
 use super::legs::{Leg, corner};
 use crate::geometry::{Point2, Vector2};
 use crate::net::TurningCircle;
@@ -16,8 +17,8 @@ const SAME: f64 = 1e-3;
 /// Legs turn by more than this, as the sine, where their kerbs are no straight line.
 const PARALLEL: f64 = 0.15;
 /// The most that an arc turns between two of its points, radians.
-const KERB_STEP: f64 = 0.32;
-const WALK_STEP: f64 = 0.8;
+pub(super) const KERB_STEP: f64 = 0.32;
+pub(super) const WALK_STEP: f64 = 0.8;
 
 /// The paved area of a junction, counter-clockwise, and the point at which the kerb on the left of each leg begins. The
 /// i-th kerb leads from the left of leg i round the corner to the right of the next one.
@@ -33,6 +34,7 @@ pub(super) fn outline(center: Point2, legs: &[Leg]) -> (Vec<Point2>, Vec<u32>) {
         outline.push(leg.point(leg.reach, leg.left));
         match legs {
             [leg] if leg.turning > 0.0 => Bulb::of(leg).round(0.0, KERB_STEP, &mut outline),
+            [leg] if leg.hammerhead => hammerhead::kerb(leg, &mut outline),
             [leg] => outline.extend([leg.point(0.0, leg.left), leg.point(0.0, -leg.right)]),
             _ => rounded(center, leg, next, &mut outline),
         }
@@ -84,7 +86,7 @@ fn rounded(center: Point2, leg: &Leg, next: &Leg, outline: &mut Vec<Point2>) {
 }
 
 /// Points on an arc about a middle from a start on, both ends included.
-fn arc(middle: Point2, start: Point2, turn: f64, step: f64, points: &mut Vec<Point2>) {
+pub(super) fn arc(middle: Point2, start: Point2, turn: f64, step: f64, points: &mut Vec<Point2>) {
     let pieces = (turn.abs() / step).ceil().max(1.0);
     let (sin, cos) = ops::sin_cos(turn / pieces);
     let mut from_middle = start - middle;
@@ -160,21 +162,30 @@ pub(super) fn walk_round_bulb(leg: &Leg, outside: f64) -> Vec<Point2> {
     points
 }
 
-/// The way of a vehicle round a turning circle, from a lane `left` m to the left of the centreline to one `right` m to its
-/// right, both seen leaving: out of the lane to the right, round the middle to the left, and back. `keep` is the distance
-/// of its middle from the kerb. `None` where the circle has no room for it.
-pub(super) fn turning_path(leg: &Leg, (left, right): (f64, f64), keep: f64) -> Option<Vec<Point2>> {
+/// The way of a vehicle round a turning circle; see [`way_round`]. `keep` is the distance of its middle from the kerb.
+pub(super) fn turning_path(leg: &Leg, lanes: (f64, f64), keep: f64) -> Option<Vec<Point2>> {
+    way_round(leg, (0.0, leg.turning - keep), lanes)
+}
+
+/// The way of a vehicle round at a dead end, from a lane `left` m to the left of the centreline to one `right` m to its
+/// right, both seen leaving: out of the lane to the right, on a circle to the left, and back. The middle of the circle lies
+/// `along` m into the street. `None` where it has no room for that.
+pub(super) fn way_round(
+    leg: &Leg,
+    (along, radius): (f64, f64),
+    (left, right): (f64, f64),
+) -> Option<Vec<Point2>> {
     let shift = (leg.left - leg.right) * 0.5;
-    let radius = leg.turning - keep;
+    let stop = leg.stop - along;
     // The radius of the way out of a lane that touches the circle and begins at the end of the lane.
     let swing = |beside: f64| {
-        let swing = (leg.stop * leg.stop - radius * radius + beside * beside) / (2.0 * (radius - beside));
+        let swing = (stop * stop - radius * radius + beside * beside) / (2.0 * (radius - beside));
         (beside.abs() < radius - 0.5 && swing > 1.0).then_some(swing)
     };
     let (to_left, to_right) = (left - shift, right + shift);
     let (out, back) = (swing(to_left)?, swing(to_right)?);
-    let middle = leg.point(0.0, shift);
-    let angle = |beside: f64, swing: f64| ops::atan2(beside + swing, leg.stop);
+    let middle = leg.point(along, shift);
+    let angle = |beside: f64, swing: f64| ops::atan2(beside + swing, stop);
     let (first, last) = (angle(to_left, out), angle(to_right, back));
     let mut points = Vec::new();
     let turn = |angle: f64| std::f64::consts::FRAC_PI_2 - angle;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{NetworkConfig, StreetPlan, kerbs};
+use super::{NetworkConfig, StreetPlan, hammerhead, kerbs};
 use crate::geometry::{Point2, Vector2, direction, heading};
 use crate::net::{RoadClass, polyline};
 
@@ -45,6 +45,8 @@ pub(super) struct Leg {
     pub(super) wanted: f64,
     /// Radius of the turning circle at a dead end, m; 0 without one.
     pub(super) turning: f64,
+    /// Whether a dead end has a hammerhead.
+    pub(super) hammerhead: bool,
     /// The centre of the junction.
     pub(super) node: Point2,
 }
@@ -100,6 +102,7 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>
                 rounding: rounding(street.class),
                 wanted: 0.0,
                 turning: street.turning[usize::from(!at_start)],
+                hammerhead: street.hammerhead[usize::from(!at_start)],
                 node: plan.nodes[node],
             }
         };
@@ -140,9 +143,13 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
             2 => (reach, reach),
             _ => (reach + config.crossing_width + STOP_GAP, reach + config.crossing_width * 0.5),
         };
-        match kerbs::bulb_reach(leg).filter(|_| count == 1) {
-            Some(reach) => (leg.reach, leg.stop, leg.walk) = (reach, reach, reach),
-            None => leg.turning = 0.0,
+        let circle = kerbs::bulb_reach(leg).filter(|_| count == 1);
+        if circle.is_none() {
+            leg.turning = 0.0;
+        }
+        leg.hammerhead &= count == 1 && circle.is_none();
+        if let Some(reach) = circle.or(leg.hammerhead.then_some(hammerhead::REACH)) {
+            (leg.reach, leg.stop, leg.walk) = (reach, reach, reach);
         }
     }
 }
@@ -170,14 +177,15 @@ fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
     if cos < 0.0 { met.min(own.max(other)) } else { met }
 }
 
-/// Shortens what both ends take of a street that is too short for it: first turning circles and roundings, then the room
+/// Shortens what both ends take of a street that is too short for it: first room to turn and roundings, then the room
 /// for crossings and stop lines, then the reaches, for an area cut short of where kerbs meet would fold over itself.
 fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
     for legs in legs.iter_mut() {
         if let [leg] = legs.as_mut_slice() {
-            // A street that is not much longer than its turning circle has none.
-            if leg.turning > 0.0 && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
-                leg.turning = 0.0;
+            // A street that is not much longer than its turning circle or hammerhead has none.
+            let has_room = leg.turning > 0.0 || leg.hammerhead;
+            if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
+                (leg.turning, leg.hammerhead) = (0.0, false);
                 (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
             }
         }
@@ -203,7 +211,7 @@ fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
         let beyond = ((room - reach) / (stop - reach).max(1e-9)).clamp(0.0, 1.0);
         let (own, walk, stop) = (leg.reach, leg.walk - leg.reach, leg.stop - leg.reach);
         if scale < 1.0 {
-            leg.turning = 0.0;
+            (leg.turning, leg.hammerhead) = (0.0, false);
         }
         leg.reach = own * scale;
         leg.stop = leg.reach + stop * beyond;

@@ -77,6 +77,7 @@ pub(super) fn network(mut network: RoadNetwork) -> RoadNetwork {
 fn turn_over(index: usize, intersection: &mut Intersection, roads: &[Road]) {
     flip(&mut intersection.center);
     intersection.turning.iter_mut().for_each(|circle| flip(&mut circle.center));
+    intersection.hammerhead.iter_mut().flat_map(|head| &mut head.tips).for_each(flip);
     intersection.outline.iter_mut().for_each(flip);
     let mut kerbs: Vec<Vec<Point2>> =
         (0..intersection.kerbs.len()).map(|rank| polyline::reversed(intersection.kerb(rank))).collect();

@@ -2,6 +2,7 @@
 
 mod connections;
 mod cycles;
+mod hammerhead;
 mod kerbs;
 mod lanes;
 mod legs;
@@ -266,6 +267,7 @@ fn intersection(
         connections: Vec::new(),
         crossings: Vec::new(),
         corners: Vec::new(),
+        hammerhead: hammerhead::head(legs),
     }
 }
 

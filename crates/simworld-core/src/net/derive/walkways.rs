@@ -1,6 +1,7 @@
 //! Where people walk: sidewalks along the roads, walkways round the corners, crossings over the legs.
 
 use super::NetworkConfig;
+use super::hammerhead;
 use super::kerbs;
 use super::legs::{self, Leg};
 use crate::geometry::Point2;
@@ -96,6 +97,11 @@ fn corners(network: &RoadNetwork, legs: &[Leg]) -> Vec<Vec<Point2>> {
             if leg.turning > 0.0 {
                 let around = kerbs::walk_round_bulb(leg, left_margin.min(right_margin));
                 walkway.extend(&around[1..around.len().saturating_sub(1).max(1)]);
+                walkway.push(end);
+                return Some(walkway);
+            }
+            if leg.hammerhead {
+                hammerhead::walk_round(leg, left_margin.min(right_margin), &mut walkway);
                 walkway.push(end);
                 return Some(walkway);
             }

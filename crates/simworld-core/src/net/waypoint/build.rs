@@ -10,7 +10,7 @@ use crate::net::{RoadNetwork, Side, polyline};
 
 /// Width of a cell of the grid in which the nearest waypoint is looked for, m.
 const CELL: f64 = 20.0;
-/// An end of a footpath leads on to a sidewalk that is no farther off, m.
+/// An end of a footpath that joins leads on to a sidewalk that is no farther off, m.
 const JOINS: f64 = 15.0;
 
 /// A graph under construction.
@@ -116,13 +116,14 @@ pub(super) fn walkable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
     builder.finish()
 }
 
-/// Ways for walkers alone: joined where they share an end, and to the nearest sidewalk where one is near an end.
+/// Ways for walkers alone: joined where they share an end, and to the nearest sidewalk where one is near an end that joins.
 fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
     if network.footpaths.is_empty() {
         return;
     }
     let walks = PointGrid::new(builder.waypoints.iter().map(|waypoint| waypoint.position).collect(), CELL);
-    let mut ends: BTreeMap<[u64; 2], WaypointId> = BTreeMap::new();
+    // The waypoint at each end, and whether it leads to a sidewalk.
+    let mut ends: BTreeMap<[u64; 2], (WaypointId, bool)> = BTreeMap::new();
     for footpath in &network.footpaths {
         let places = interpolated(&footpath.path, step);
         let mut last: Option<WaypointId> = None;
@@ -130,10 +131,12 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
             let is_end = rank == 0 || rank + 1 == places.len();
             let key = [place.x.to_bits(), place.y.to_bits()];
             let known = ends.get(&key).copied().filter(|_| is_end);
-            let here = known.unwrap_or_else(|| builder.add(*place, WaypointKind::Footpath));
-            if is_end && known.is_none() {
-                ends.insert(key, here);
-                let near = walks.nearest(*place).map(WaypointId::from_index);
+            let (here, is_joined) =
+                known.unwrap_or_else(|| (builder.add(*place, WaypointKind::Footpath), false));
+            if is_end {
+                let joins = !is_joined && footpath.joins[usize::from(rank > 0)];
+                ends.insert(key, (here, is_joined || joins));
+                let near = walks.nearest(*place).filter(|_| joins).map(WaypointId::from_index);
                 let near =
                     near.filter(|near| (builder.waypoints[near.index()].position - place).norm() <= JOINS);
                 if let Some(near) = near {

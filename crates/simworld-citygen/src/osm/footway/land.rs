@@ -1,0 +1,100 @@
+//! Where nobody lays a way for walkers: on the land of roads and in buildings.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::RoadId;
+use simworld_core::net::{Road, RoadNetwork};
+
+use crate::building::{Building, Surveyed};
+use crate::occupancy::{Occupancy, intersection_walk};
+
+/// Half the width in which a way is tested, m: its middle, for maps are not that exact.
+const HALF: f64 = 0.1;
+/// A way that is nowhere farther beyond a sidewalk than this follows it, m.
+const FOLLOWS: f64 = 3.0;
+
+/// What is taken on the ground.
+pub(super) struct Land {
+    /// By roads, sidewalks included.
+    roads: Occupancy,
+    /// By what is driven on: carriageways and junctions.
+    driven: Occupancy,
+    /// By buildings.
+    walls: Occupancy,
+    /// By sidewalks and what lies right beside them.
+    beside: Occupancy,
+}
+
+impl Land {
+    pub(super) fn of(network: &RoadNetwork, buildings: &[Building]) -> Self {
+        let (mut driven, mut beside, mut walls) =
+            (Occupancy::default(), Occupancy::default(), Occupancy::default());
+        for road in network.roads.iter().filter(|road| road.level == 0) {
+            take_carriageway(road, &mut driven);
+            for walk in road.sidewalks.iter().flatten().map(|walk| &network.sidewalks[walk.index()]) {
+                let reach = walk.width * 0.5 + FOLLOWS;
+                beside.add_path(&walk.path, (reach, reach));
+            }
+        }
+        let on_ground = |road: &RoadId| network.roads[road.index()].level == 0;
+        for place in network.intersections.iter().filter(|place| place.roads.iter().any(on_ground)) {
+            let paved = Surveyed { outline: place.outline.clone(), courts: Vec::new() };
+            paved.triangles().iter().for_each(|triangle| driven.add(triangle));
+            let reach = intersection_walk(network, &place.roads) * 0.5 + FOLLOWS;
+            place.corners.iter().for_each(|corner| beside.add_path(corner, (reach, reach)));
+        }
+        buildings.iter().flat_map(Building::ground).for_each(|piece| walls.add(&piece));
+        let roads = Occupancy::of_roads_where(network, |road| on_ground(&road));
+        Self { roads, driven, walls, beside }
+    }
+
+    /// Whether a straight piece lies on nobody's land.
+    pub(super) fn is_open(&self, a: Point2, b: Point2) -> bool {
+        is_free(&[&self.roads, &self.driven, &self.walls], a, b)
+    }
+
+    /// Whether a straight piece crosses nothing that is driven on, and no wall.
+    pub(super) fn is_clear(&self, a: Point2, b: Point2) -> bool {
+        is_free(&[&self.driven, &self.walls], a, b)
+    }
+
+    /// Whether a straight piece lies right beside a sidewalk, at least in part.
+    pub(super) fn is_beside_road(&self, a: Point2, b: Point2) -> bool {
+        !is_free(&[&self.beside], a, b)
+    }
+}
+
+/// Takes what lies between the kerbs of a road, round the outside of its bends too.
+fn take_carriageway(road: &Road, taken: &mut Occupancy) {
+    let (left, right) = (road.left_kerb.max(0.0), road.right_kerb.max(0.0));
+    taken.add_path(&road.centerline, (left, right));
+    for three in road.centerline.windows(3) {
+        let normals = [three[1] - three[0], three[2] - three[1]]
+            .map(|along| Vector2::new(-along.y, along.x).try_normalize(1e-9).unwrap_or_else(Vector2::zeros));
+        let bend = normals[0].perp(&normals[1]);
+        // The outside of a bend to the left is on the right.
+        let reach = if bend > 0.0 { -right } else { left };
+        if bend.abs() < 1e-3 {
+            continue;
+        }
+        let Some(between) = (normals[0] + normals[1]).try_normalize(1e-6) else { continue };
+        // As far as the kerbs of both pieces meet, but of a sharp bend no farther than twice as wide as the road.
+        let corner = between * (reach / between.dot(&normals[0]).max(0.5));
+        taken.add(&[
+            three[1],
+            three[1] + normals[0] * reach,
+            three[1] + corner,
+            three[1] + normals[1] * reach,
+        ]);
+    }
+}
+
+fn is_free(all: &[&Occupancy], a: Point2, b: Point2) -> bool {
+    let along = b - a;
+    let length = along.norm();
+    if length < 1e-6 {
+        return true;
+    }
+    let across = Vector2::new(-along.y, along.x) * (HALF / length);
+    let strip = [b - across, b + across, a + across, a - across];
+    all.iter().all(|taken| taken.is_free(&strip))
+}
