@@ -12,6 +12,9 @@ use crate::config::AntiAliasing;
 use crate::mesh::{Pattern, Vertex};
 use crate::resident::Instance;
 
+/// The slot of the tangents of models, behind those of vertices and instances.
+pub(crate) const TANGENTS: u32 = 2;
+
 /// What is drawn in one way: the key of a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Brush {
@@ -162,7 +165,12 @@ impl Workshop {
             Variant::of(brush, self.smooth);
         let module = self.modules.entry(program).or_insert_with(|| program.module(gpu));
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        let buffers = [Some(vertex_layout()), Some(instance_layout())];
+        let buffers = [Some(vertex_layout()), Some(instance_layout()), Some(tangent_layout())];
+        let read = match (meshes, program) {
+            (true, Program::Forward(Pattern::Model)) => &buffers[..],
+            (true, _) => &buffers[..TANGENTS as usize],
+            (false, _) => &buffers[..0],
+        };
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(label),
             layout: Some(self.layouts.of(brush)),
@@ -170,7 +178,7 @@ impl Workshop {
                 module,
                 entry_point: Some(vertex),
                 compilation_options: options.clone(),
-                buffers: if meshes { &buffers } else { &[] },
+                buffers: read,
             },
             primitive: wgpu::PrimitiveState {
                 cull_mode: meshes.then_some(wgpu::Face::Back),
@@ -351,6 +359,16 @@ fn instance_layout() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
         array_stride: size_of::<Instance>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &ATTRIBUTES,
+    }
+}
+
+/// The tangents of a model, a word each: whoever draws no colour of it reads none.
+fn tangent_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![11 => Uint32];
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<u32>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &ATTRIBUTES,
     }
 }

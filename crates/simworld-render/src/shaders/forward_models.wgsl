@@ -18,10 +18,12 @@ struct ModelVaryings {
     @location(8) @interpolate(flat) coat: u32,
     @location(9) @interpolate(flat) id: u32,
     @location(10) alpha: f32,
+    // World axes; see `tangent_of`.
+    @location(11) tangent: vec4f,
 }
 
 @vertex
-fn vertex_model(corner: Corner) -> ModelVaryings {
+fn vertex_model(corner: Corner, @location(11) tangent: u32) -> ModelVaryings {
     let in = vertex_of(corner);
     let relative = relative_point(in);
     let normal = body_normal(in);
@@ -39,6 +41,8 @@ fn vertex_model(corner: Corner) -> ModelVaryings {
     out.extra = vec2f(in.color.w, in.second.w);
     out.coat = coat_place(in.second.x, laid.part);
     out.id = in.who;
+    let told = tangent_of(tangent, in.scale.xyz);
+    out.tangent = vec4f(rotate(in.rotation, told.xyz), told.w);
     return out;
 }
 
@@ -52,7 +56,7 @@ fn model_color(in: ModelVaryings) -> vec4f {
     }
     let spot = model_spot(in.coat, in.tint, in.place, across, down);
     let normal = normalize(in.normal);
-    let bumped = tilted(normal, spot.bump, ways, mat2x2f(across, down));
+    let bumped = tilted(normal, in.tangent, spot.bump, ways, mat2x2f(across, down));
     let hit = Hit(in.relative, normal, in.body, in.body_normal, spot.finish, in.size, in.extra, 1.0, PATTERN, footprint, spot.glow, bumped);
     return vec4f(shade(hit), 1.0);
 }

@@ -7,6 +7,7 @@ mod bad_input_is_refused;
 mod batches_are_their_views;
 mod bodies_are_drawn_where_they_are;
 mod boxes_hold_what_is_seen;
+mod bumps_follow_tangents;
 mod common;
 mod cutouts;
 mod depth_is_exact;

@@ -233,12 +233,23 @@ impl Rig {
     pub fn rest(&self) -> PosedModel {
         pose::pose(&self.desc, None, 0.0)
     }
+
+    /// Which way the [tangents](super::Model::tangents) of its model at rest point in a clip, so long after it began.
+    pub fn tangents(&self, rest: &[[f32; 4]], clip: usize, seconds: f64) -> Vec<[f32; 4]> {
+        let skin = self.desc.tangents_of_skin(rest);
+        pose::tangents(&self.desc, &skin, self.desc.clips.get(clip), seconds)
+    }
 }
 
 impl RigDesc {
     /// Says which way its vertices face at rest, body frame, one for each in their order: finds their normals in the frame of the skin.
     pub fn face(&mut self, normals: &[[f32; 3]]) {
         pose::face(self, normals);
+    }
+
+    /// The [tangents](super::Model::tangents) in the frame of the skin that are these at rest; zeros where there is no way back, as on what is scaled to nothing.
+    pub fn tangents_of_skin(&self, rest: &[[f32; 4]]) -> Vec<[f32; 4]> {
+        pose::of_skin(self, rest)
     }
 }
 
@@ -327,6 +338,24 @@ mod tests {
         let normal = Rig::new(desc).unwrap().rest().normals[0];
         let length = (1.0_f32 + 16.0).sqrt();
         assert!(is_near(normal, [-1.0 / length, 0.0, 4.0 / length]), "{normal:?}");
+    }
+
+    #[test]
+    fn tangents_are_led_by_what_carries_them() {
+        let ahead = [[1.0, 0.0, 0.0, 1.0]; 3];
+        let is_led = |got: &[f32; 4], wanted: [f32; 4]| {
+            is_near([got[0], got[1], got[2]], [wanted[0], wanted[1], wanted[2]]) && got[3] == wanted[3]
+        };
+        let rig = Rig::new(arm()).unwrap();
+        let bent = rig.tangents(&ahead, 0, 1.0);
+        assert!(is_led(&bent[0], ahead[0]) && is_led(&bent[2], [0.0, 1.0, 0.0, 1.0]), "{bent:?}");
+        let mut desc = arm();
+        desc.joints[0].rest =
+            Local::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [-2.0, 1.0, 1.0] };
+        assert!(is_led(&desc.tangents_of_skin(&ahead)[0], [-1.0, 0.0, 0.0, -1.0]), "the skin is mirrored");
+        let rig = Rig::new(desc).unwrap();
+        assert!(rig.tangents(&ahead, 7, 0.0).iter().all(|got| is_led(got, ahead[0])), "and back at rest");
+        assert_eq!(rig.tangents(&[[0.0; 4]; 3], 0, 0.0), [[0.0; 4]; 3], "none is none");
     }
 
     #[test]

@@ -110,6 +110,37 @@ pub(super) fn face(desc: &mut RigDesc, normals: &[[f32; 3]]) {
     }
 }
 
+/// The tangents of the skin that are these at rest: of length 1, with the side that they have there; zeros where nothing leads back.
+pub(super) fn of_skin(desc: &RigDesc, rest: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    let bones = carriers(desc, None, 0.0);
+    let led = |(vertex, tangent): (&SkinVertex, &[f32; 4])| {
+        let map = linear(&blended(vertex, &bones));
+        map.try_inverse().map_or([0.0; 4], |back| led_by(&back, *tangent))
+    };
+    desc.vertices.iter().zip(rest).map(led).collect()
+}
+
+/// Where tangents of the skin point, body frame.
+pub(super) fn tangents(
+    desc: &RigDesc,
+    skin: &[[f32; 4]],
+    clip: Option<&Clip>,
+    seconds: f64,
+) -> Vec<[f32; 4]> {
+    let bones = carriers(desc, clip, seconds);
+    let led =
+        |(vertex, tangent): (&SkinVertex, &[f32; 4])| led_by(&linear(&blended(vertex, &bones)), *tangent);
+    desc.vertices.iter().zip(skin).map(led).collect()
+}
+
+/// A tangent under a map, of length 1: what mirrors a surface mirrors what lies on it. Zeros where it has none.
+fn led_by(map: &Matrix3<f32>, [x, y, z, side]: [f32; 4]) -> [f32; 4] {
+    let led = (map * Vector3::new(x, y, z)).try_normalize(1e-12);
+    let sound = led.filter(|way| way.iter().all(|part| part.is_finite()));
+    let turned = if map.determinant() < 0.0 { -side } else { side };
+    sound.map_or([0.0; 4], |way| [way.x, way.y, way.z, turned])
+}
+
 /// Body from skin, by bone.
 fn carriers(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> Vec<Matrix3x4<f32>> {
     let single = |bone: &Matrix4<f64>| bone.fixed_view::<3, 4>(0, 0).map(|part| part as f32);
