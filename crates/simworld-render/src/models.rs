@@ -39,9 +39,10 @@ struct Held {
     vertices: wgpu::Buffer,
     tangents: u64,
     indices: wgpu::Buffer,
-    /// Of the corners, those of what is cut out come last.
+    /// Of the corners, those of what is cut out come behind those of what is whole, and those of what is blended last.
     count: u32,
     cut_from: u32,
+    film_from: u32,
     /// Its vertices in other poses.
     poses: Poses<wgpu::Buffer>,
 }
@@ -95,12 +96,13 @@ impl Models {
         Ok(is_new)
     }
 
-    /// The corners of a model that are whole, or of which something is cut out; `None` where it has none of these.
+    /// The corners of a model that are of that matter; `None` where it has none of these.
     pub(crate) fn corners(&self, id: ModelId, matter: Matter) -> Option<Range<u32>> {
         let held = self.held.get(&id.source)?;
         let corners = match matter {
             Matter::Whole => 0..held.cut_from,
-            Matter::Cut => held.cut_from..held.count,
+            Matter::Cut => held.cut_from..held.film_from,
+            Matter::Film => held.film_from..held.count,
         };
         (!corners.is_empty()).then_some(corners)
     }
@@ -129,7 +131,8 @@ impl ModelId {
 impl Held {
     fn upload(gpu: &Gpu, modelled: &Modelled<'_>) -> Result<Self, RenderError> {
         let mesh = ModelMesh::of(modelled.size, &modelled.model, None);
-        let (indices, cut_from) = (mesh.indices.clone(), mesh.cut_from as u32);
+        let (cut_from, film_from) = (mesh.cut_from as u32, mesh.film_from as u32);
+        let indices = mesh.indices.clone();
         let tangents = size_of_val(&mesh.vertices[..]) as u64;
         let vertices = mesh.in_triangles();
         let largest = vertices.len().max(size_of_val(&indices[..])) as u64;
@@ -145,6 +148,7 @@ impl Held {
             indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
             count: indices.len() as u32,
             cut_from,
+            film_from,
             poses: Poses::of_bytes(vertices.len() as u64),
         })
     }
@@ -161,11 +165,21 @@ pub(crate) struct ModelMesh {
     /// By vertex, its tangent in the unit box, [packed](packed_tangent).
     pub tangents: Vec<u32>,
     pub indices: Vec<u32>,
-    /// From this index on, corners are those of parts that are cut out.
+    /// From this index on, corners are those of parts that are cut out, and from the other on those of parts that are blended.
     pub cut_from: usize,
+    pub film_from: usize,
 }
 
-/// How much has to be there of a part so that it is seen; none of what is opaque. Of what is to be blended it is a half.
+/// What the triangles of a part are.
+pub(crate) const fn matter_of(part: &ModelPart) -> Matter {
+    match part.transparency {
+        Transparency::Opaque => Matter::Whole,
+        Transparency::Cutout { .. } => Matter::Cut,
+        Transparency::Blend => Matter::Film,
+    }
+}
+
+/// How much has to be there of a part so that it counts: that it is seen, and of what is blended that it has depth and is who is met, of which it is a half. None of what is opaque.
 pub(crate) fn cutoff_of(part: &ModelPart) -> Option<f32> {
     match part.transparency {
         Transparency::Opaque => None,
@@ -224,17 +238,20 @@ impl ModelMesh {
             tangents: Vec::with_capacity(model.vertices.len()),
             indices: Vec::with_capacity(model.triangles.len() * 3),
             cut_from: 0,
+            film_from: 0,
         };
         // By vertex of the model, the part that had it last, and which it is there: parts that share one have one each.
         let mut homes = vec![NOBODY; model.vertices.len()];
         let runs = || (0..).zip(model.runs());
-        let whole = runs().filter(|(_, (part, _))| !is_cut(part));
-        let ordered = whole.chain(runs().filter(|(_, (part, _))| is_cut(part)));
+        let of = |matter: Matter| runs().filter(move |(_, (part, _))| matter_of(part) == matter);
+        let ordered = Matter::ALL.into_iter().flat_map(of);
         for (number, (part, triangles), is_back) in ordered.flat_map(|(number, run)| {
             let sides = if run.0.two_sided { &[false, true][..] } else { &[false] };
             sides.iter().map(move |is_back| (number, run, *is_back))
         }) {
-            mesh.cut_from += if is_cut(part) { 0 } else { triangles.len() * 3 };
+            let matter = matter_of(part);
+            mesh.cut_from += if matter == Matter::Whole { triangles.len() * 3 } else { 0 };
+            mesh.film_from += if matter == Matter::Film { 0 } else { triangles.len() * 3 };
             for corner in triangles.iter().flat_map(|[a, b, c]| if is_back { [a, c, b] } else { [a, b, c] }) {
                 let home = &mut homes[*corner as usize];
                 if home.0 != (number, is_back) {
@@ -332,7 +349,8 @@ mod tests {
             ..Model::default()
         };
         let mesh = ModelMesh::of(Vector3::repeat(1.0), &model, None);
-        assert_eq!((mesh.cut_from, &mesh.indices[..]), (3, &[0, 1, 2, 3, 4, 5, 6, 7, 8][..]));
+        assert_eq!((mesh.cut_from, mesh.film_from), (3, 3));
+        assert_eq!(mesh.indices, [0, 1, 2, 3, 4, 5, 6, 7, 8]);
         assert_eq!(
             mesh.spots.iter().map(|spot| spot[2]).collect::<Vec<_>>(),
             [[1.0; 3], [0.0; 3], [0.0; 3]].concat()
@@ -342,6 +360,24 @@ mod tests {
             assert_eq!((b - a).cross(&(c - a)).z, up);
             assert!(triangle.iter().all(|vertex| f64::from(vertex.normal[2]) == up));
         }
+    }
+
+    #[test]
+    fn what_is_whole_comes_first_and_what_is_blended_last() {
+        let part = |transparency| ModelPart { triangles: 1, transparency, ..ModelPart::default() };
+        let cut = Transparency::Cutout { cutoff: 0.5 };
+        let model = Model {
+            vertices: vec![ModelVertex::default(); 3],
+            triangles: vec![[0, 1, 2]; 5],
+            parts: [Transparency::Blend, cut, Transparency::Opaque, cut, Transparency::Blend]
+                .map(part)
+                .to_vec(),
+            ..Model::default()
+        };
+        let mesh = ModelMesh::of(Vector3::repeat(1.0), &model, None);
+        assert_eq!((mesh.cut_from, mesh.film_from, mesh.indices.len()), (3, 9, 15));
+        let numbers: Vec<f32> = mesh.spots.iter().step_by(3).map(|spot| spot[2]).collect();
+        assert_eq!(numbers, [2.0, 1.0, 3.0, 0.0, 4.0]);
     }
 
     #[test]

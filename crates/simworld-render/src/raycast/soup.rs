@@ -3,6 +3,7 @@
 
 use super::bvh::{Box3, Child, NONE, Tree, WIDTH};
 use super::halves::{Rounding, pair};
+use super::shape::MOST_PIECES;
 use crate::mesh::{Pattern, Vertex};
 use crate::models::ModelMesh;
 
@@ -23,8 +24,11 @@ const ALPHA: u32 = 9;
 const IS_LEAF: u32 = 1 << 31;
 /// From this bit on, a triangle's word of where its normals are has the pattern of its mesh.
 const PATTERN: u32 = 28;
-/// Says in that word that the part of the triangle is cut out; as in rays.wgsl.
+/// Says in that word that the part of the triangle is cut out, or blended, and that it is blended; as in rays.wgsl.
 const IS_CUT: u32 = 1 << 27;
+const IS_FILM: u32 = 1 << 26;
+/// Below these bits there is room for the number of any piece.
+const _: () = assert!(MOST_PIECES <= IS_FILM as usize);
 
 /// A mesh among the pieces.
 #[derive(Clone, Copy, Debug)]
@@ -42,15 +46,18 @@ pub(super) struct Soup<'a> {
     spots: Vec<[[f32; 4]; 3]>,
     /// Likewise the tangents, packed.
     tangents: Vec<[u32; 3]>,
-    /// From this triangle on they are those of parts that are cut out.
+    /// From this triangle on they are those of parts that are cut out, and from the other on of parts that are blended.
     cut_from: usize,
+    film_from: usize,
     pattern: Pattern,
 }
 
 impl<'a> Soup<'a> {
     pub(super) fn new(vertices: &'a [Vertex], indices: &[u32], pattern: Pattern) -> Self {
         let corners = by_corner(indices, |index| &vertices[index]);
-        Self { cut_from: corners.len(), corners, spots: Vec::new(), tangents: Vec::new(), pattern }
+        let count = corners.len();
+        let (spots, tangents) = (Vec::new(), Vec::new());
+        Self { corners, spots, tangents, cut_from: count, film_from: count, pattern }
     }
 
     pub(super) fn of_model(mesh: &'a ModelMesh) -> Self {
@@ -58,6 +65,7 @@ impl<'a> Soup<'a> {
             spots: by_corner(&mesh.indices, |index| mesh.spots[index]),
             tangents: by_corner(&mesh.indices, |index| mesh.tangents[index]),
             cut_from: mesh.cut_from / 3,
+            film_from: mesh.film_from / 3,
             ..Self::new(&mesh.vertices, &mesh.indices, Pattern::Model)
         }
     }
@@ -106,8 +114,9 @@ impl<'a> Soup<'a> {
         let aside = if self.spots.is_empty() { ASIDE } else { MODEL_ASIDE };
         let pattern = (self.pattern as u32) << PATTERN;
         for (position, number) in (0..).zip(&tree.order) {
-            let cut = if (*number as usize) < self.cut_from { 0 } else { IS_CUT };
-            let last = pattern | cut | (normals + aside * position);
+            let is_from = |from: usize, bit| if (*number as usize) < from { 0 } else { bit };
+            let kind = is_from(self.cut_from, IS_CUT) | is_from(self.film_from, IS_FILM);
+            let last = pattern | kind | (normals + aside * position);
             add_triangle(&mut pieces, &self.corners[*number as usize], last);
         }
         for number in &tree.order {

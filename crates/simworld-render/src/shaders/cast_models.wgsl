@@ -48,10 +48,11 @@ fn tangent_on(chart: Chart, share: vec2f, scale: vec3f, rotation: vec4f) -> vec4
     return vec4f(rotate(rotation, told.xyz), told.w);
 }
 
-// The part where a ray met its triangle, and its normal there.
+// The part where a ray met its triangle, its normal there, and how much of it is there.
 struct Touched {
     spot: Spot,
     normal: vec3f,
+    alpha: f32,
 }
 
 fn touched(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Touched {
@@ -66,10 +67,11 @@ fn touched(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Touched {
     let spot = model_spot(chart.coat, model_tint(met.material, i.color.rgb), place, across, down);
     let ways = mat2x3f(rotate(i.rotation, one.ab), rotate(i.rotation, one.ac));
     let tangent = tangent_on(chart, share, i.scale.xyz, i.rotation);
-    return Touched(spot, tilted(met.normal, tangent, spot.bump, ways, chart.sides));
+    return Touched(spot, tilted(met.normal, tangent, spot.bump, ways, chart.sides), alpha_on(chart, share) * spot.alpha);
 }
 
-// Whether a view ray goes through a hole where it meets a triangle; the ray is in the body frame. A ray of a table is no pixel, and sees the finest level.
+// Whether a view ray goes on where it meets a triangle of which there is not all: through a hole, or, where what is thinner than counts is looked for, through what counts, and
+// through next to nothing. The ray is in the body frame. A ray of a table is no pixel, and sees the finest level.
 fn looks_through(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32) -> bool {
     let chart = chart_of(triangle, number);
     let picture = picture_at(chart.coat + COLOR_PICTURE);
@@ -84,7 +86,17 @@ fn looks_through(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32) ->
         level = level_of_picture(picture, across, down);
     }
     let share = within_triangle(shares_of(one, ray.origin + ray.direction * t - one.a));
-    return is_hole(chart.coat, alpha_on(chart, share), chart.corner + chart.sides * share, level);
+    let alpha = alpha_on(chart, share);
+    let place = chart.corner + chart.sides * share;
+    let hole = is_hole(chart.coat, alpha, place, level);
+    if (FILMS != THIN_FILMS) {
+        return hole;
+    }
+    var seen = alpha;
+    if (picture.row >= 0.0) {
+        seen *= pictured(true, picture, place, level).a;
+    }
+    return !hole || seen < FAINTEST;
 }
 
 // Whether the sun shines through a hole where its ray meets a triangle so far from the eye: as blurred as a pixel is wide there.

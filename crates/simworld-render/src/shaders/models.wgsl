@@ -13,6 +13,8 @@ struct Spot {
     glow: vec4f,
     // Its normal in the frame of the pictures: to the right, to the top, and out of the surface; zero without a picture of it.
     bump: vec3f,
+    // How much of it is there by the picture of its colour.
+    alpha: f32,
 }
 
 // Pictures of a part beside that of its colour, by the bits that say which there are; as many entries behind METAL_PICTURE.
@@ -24,10 +26,12 @@ const BUMPS: u32 = 3u;
 fn model_spot(coat: u32, tint: vec3f, place: vec2f, across: vec2f, down: vec2f) -> Spot {
     let first = coat_entry(coat);
     let light = coat_entry(coat + 1u);
-    var spot = Spot(Finish(tint, 0.0, 0.0, first.x, first.y), vec4f(light.rgb, 1.0), vec3f(0.0));
+    var spot = Spot(Finish(tint, 0.0, 0.0, first.x, first.y), vec4f(light.rgb, 1.0), vec3f(0.0), 1.0);
     let picture = picture_at(coat + COLOR_PICTURE);
     if (picture.row >= 0.0) {
-        spot.finish.albedo *= pictured(true, picture, place, level_of_picture(picture, across, down)).rgb;
+        let seen = pictured(true, picture, place, level_of_picture(picture, across, down));
+        spot.finish.albedo *= seen.rgb;
+        spot.alpha = seen.a;
     }
     // A loop, which costs nothing on a CPU where it never runs: most parts have no such pictures.
     for (var left = u32(first.z); left != 0u; left &= left - 1u) {

@@ -12,6 +12,7 @@ mod common;
 mod cutouts;
 mod depth_is_exact;
 mod files_hold_the_frame;
+mod films;
 mod flow_is_the_motion_that_is_known;
 mod golden;
 mod ids_and_classes_name_what_is_there;
