@@ -5,14 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use simworld_core::asset::{Model, ModelPart, POSE_RATE, Paint, PosedModel, Transparency};
+use simworld_core::asset::{Asset, Model, ModelPart, Paint, PosedModel, RigPose, Transparency};
 use simworld_core::geometry::Vector3;
 use simworld_core::id::AssetId;
-use simworld_core::scene::EntityRef;
+use simworld_core::scene::{EntityRef, Scene};
 
 use crate::RenderError;
 use crate::gpu::{Gpu, Matter, TANGENTS};
-use crate::mesh::{ClipPose, ModelId, Vertex};
+use crate::mesh::{ModelId, Vertex};
 use crate::poses::Poses;
 use crate::sources::{Modelled, Source, Sources};
 use crate::tangent::packed_tangent;
@@ -119,12 +119,14 @@ impl Models {
 
 impl ModelId {
     /// The model of an asset as an entity that has it plays it now.
-    pub(crate) fn of(entity: &EntityRef<'_>, asset: AssetId, model: &Model, seconds: f64) -> Self {
-        let playing = model.rig.as_ref().and_then(|rig| {
-            let (clip, since) = entity.playing(rig, seconds)?;
-            Some(ClipPose { clip: clip as u32, number: rig.clips()[clip].pose_at(since) })
-        });
-        Self { source: Source::Asset(asset), pose: playing }
+    pub(crate) fn of(
+        entity: &EntityRef<'_>,
+        id: AssetId,
+        (asset, model): (&Asset, &Arc<Model>),
+        scene: &dyn Scene,
+    ) -> Self {
+        let pose = model.rig.as_ref().map(|rig| entity.rig_pose(asset, rig, scene));
+        Self { source: Source::Asset(id), pose: pose.filter(|pose| !pose.is_rest()) }
     }
 }
 
@@ -200,14 +202,13 @@ struct Corners<'a> {
 }
 
 impl<'a> Corners<'a> {
-    fn new(model: &'a Model, pose: Option<ClipPose>) -> Self {
+    fn new(model: &'a Model, pose: Option<RigPose>) -> Self {
         let rest = &model.tangents[..];
         let Some((pose, rig)) = pose.zip(model.rig.as_ref()) else {
             return Self { model, posed: None, tangents: Cow::Borrowed(rest) };
         };
-        let (clip, seconds) = (pose.clip as usize, f64::from(pose.number) / POSE_RATE);
-        let tangents = if rest.is_empty() { Vec::new() } else { rig.tangents(rest, clip, seconds) };
-        Self { model, posed: Some(rig.pose(clip, seconds)), tangents: Cow::Owned(tangents) }
+        let tangents = if rest.is_empty() { Vec::new() } else { rig.tangents(rest, pose) };
+        Self { model, posed: Some(rig.posed(pose)), tangents: Cow::Owned(tangents) }
     }
 
     /// Where a corner is, m, and its normal.
@@ -228,7 +229,7 @@ impl<'a> Corners<'a> {
 impl ModelMesh {
     /// A model in a box of that size (m) at rest, or in a pose; vertices and triangles are the same ones in all of them. What has two sides has a back: the same
     /// triangles the other way round, whose normals point back, so that whoever looks, lights or throws shadows knows of one side alone.
-    pub(crate) fn of(size: Vector3, model: &Model, pose: Option<ClipPose>) -> Self {
+    pub(crate) fn of(size: Vector3, model: &Model, pose: Option<RigPose>) -> Self {
         const NOBODY: ((u32, bool), u32) = ((u32::MAX, false), 0);
         let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
         let corners = Corners::new(model, pose);
