@@ -79,7 +79,7 @@ fn over(above: &[[f32; 3]], below: &[[f32; 3]], share: f32) -> Vec<[f32; 3]> {
 
 fn is_near(what: &str, got: &[[f32; 3]], wanted: &[[f32; 3]]) {
     for (got, wanted) in got.iter().zip(wanted) {
-        let near = got.iter().zip(wanted).all(|(got, wanted)| (got - wanted).abs() < 0.012 + 0.01 * wanted);
+        let near = got.iter().zip(wanted).all(|(got, wanted)| (got - wanted).abs() < 0.012 + 0.01 * *wanted);
         assert!(near, "{what}: {got:?}, not {wanted:?}");
     }
 }

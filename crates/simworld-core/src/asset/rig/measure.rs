@@ -38,7 +38,7 @@ pub(super) fn measure(desc: &RigDesc) -> Result<Measures, RigError> {
             let posed = locals(desc, Some(clip), seconds);
             spans.take(&posed);
             let bones = bones(desc, &places(desc, &posed));
-            let [low, high] = boxed(&bones, &skins, (&clip.name, seconds))?;
+            let [low, high] = boxed(&bones, &skins, (clip.name.as_str(), seconds))?;
             let [least, most] = bounds;
             bounds = [
                 std::array::from_fn(|axis| least[axis].min(low[axis])),
