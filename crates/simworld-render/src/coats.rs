@@ -10,9 +10,9 @@ use simworld_core::asset::{LONGEST_IMAGE, Model, ModelImage, ModelPart, ModelTex
 
 use crate::RenderError;
 use crate::coverage::{Cutoffs, Level, MOST_LEVELS, cutoffs, cuttable};
-use crate::gpu::{Gpu, LAYER, ROW, Texels};
+use crate::gpu::{Gpu, LAYER, Matter, ROW, Texels};
 use crate::mesh::ModelId;
-use crate::models::cutoff_of;
+use crate::models::{cutoff_of, matter_of};
 use crate::sources::{Source, Sources};
 use crate::threads;
 
@@ -43,8 +43,9 @@ pub(crate) struct Coats {
     table: Vec<[f32; 4]>,
     /// The longest side of a picture on the device.
     side: u32,
-    /// Whether anything of the models is cut out.
+    /// Whether anything of the models is cut out, and whether anything is blended.
     are_cut: bool,
+    are_films: bool,
     /// What is on the device of each model.
     rows: BTreeMap<Source, (Arc<Model>, Laid)>,
     /// Behind all of them.
@@ -61,6 +62,7 @@ impl Coats {
             table: Vec::new(),
             side: LONGEST_IMAGE,
             are_cut: false,
+            are_films: false,
             rows: BTreeMap::new(),
             next: 0,
         }
@@ -71,9 +73,14 @@ impl Coats {
         self.table.is_empty()
     }
 
-    /// Whether anything of them is cut out.
+    /// Whether anything of them is cut out, or blended.
     pub(crate) const fn are_cut(&self) -> bool {
         self.are_cut
+    }
+
+    /// Whether anything of them is blended.
+    pub(crate) const fn are_films(&self) -> bool {
+        self.are_films
     }
 
     pub(crate) const fn texels(&self) -> &Texels {
@@ -168,7 +175,7 @@ impl Coats {
 
     fn fill_table(&mut self) {
         self.table.clear();
-        self.are_cut = false;
+        (self.are_cut, self.are_films) = (false, false);
         let heads = self.models.iter().map(|(id, _)| id.head() + 1).max().unwrap_or(0);
         self.table.resize(heads, [0.0; 4]);
         for (id, model) in &self.models {
@@ -177,6 +184,7 @@ impl Coats {
             let laid = self.rows.get(id).map_or(&none, |(_, laid)| laid);
             for (number, part) in model.parts.iter().enumerate() {
                 self.are_cut |= cutoff_of(part).is_some();
+                self.are_films |= matter_of(part) == Matter::Film;
                 self.table.extend(entries_of(part, number, model, laid, self.side));
             }
         }

@@ -36,6 +36,7 @@ pub(crate) struct Kind {
     spare: u32,
     whole: [u32; 2],
     cut: [u32; 2],
+    film: [u32; 2],
 }
 
 /// Kinds have numbers: those of the meshes of this crate are [`MeshId`]s, those of models follow.
@@ -134,7 +135,7 @@ impl Deck {
         (run.start as usize..run.end as usize).map(token).collect()
     }
 
-    /// All kinds; `corners` says which of a mesh are whole, or of which something is cut out.
+    /// All kinds; `corners` says which of a mesh are of which matter.
     pub(crate) fn table(&self, corners: impl Fn(Drawn, Matter) -> Option<Range<u32>>) -> Vec<Kind> {
         let own = MeshId::ALL.iter().map(|mesh| Some(Drawn::Own(*mesh)));
         let models = self.models.iter().map(|id| id.map(Drawn::Model));
@@ -154,6 +155,7 @@ impl Deck {
                 spare: 0,
                 whole: lies(Matter::Whole),
                 cut: lies(Matter::Cut),
+                film: lies(Matter::Film),
             }
         };
         own.chain(models).map(kind).collect()

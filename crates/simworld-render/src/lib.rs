@@ -30,6 +30,7 @@ mod sensor;
 mod shadow;
 mod sieve;
 mod sources;
+mod tangent;
 mod threads;
 mod view;
 mod works;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::mesh::ClipPose;
+use simworld_core::asset::RigPose;
 
 /// Bytes that the poses of one model take on the device, beside those that are wanted at once.
 const ROOM: u64 = 32 << 20;
@@ -11,7 +11,7 @@ const ROOM: u64 = 32 << 20;
 /// What is kept for each of some poses.
 #[derive(Debug)]
 pub(crate) struct Poses<T> {
-    kept: BTreeMap<ClipPose, Kept<T>>,
+    kept: BTreeMap<RigPose, Kept<T>>,
     most: usize,
 }
 
@@ -28,12 +28,12 @@ impl<T> Poses<T> {
         Self { kept: BTreeMap::new(), most: (ROOM / bytes.max(1)) as usize }
     }
 
-    pub(crate) fn get(&self, pose: ClipPose) -> Option<&T> {
+    pub(crate) fn get(&self, pose: RigPose) -> Option<&T> {
         self.kept.get(&pose).map(|kept| &kept.what)
     }
 
     /// Notes that a pose is wanted now; true if it is there.
-    pub(crate) fn want(&mut self, pose: ClipPose, now: u64) -> bool {
+    pub(crate) fn want(&mut self, pose: RigPose, now: u64) -> bool {
         self.kept.get_mut(&pose).is_some_and(|kept| {
             kept.wanted = now;
             true
@@ -50,17 +50,19 @@ impl<T> Poses<T> {
         self.kept.remove(&longest).map(|kept| kept.what)
     }
 
-    pub(crate) fn keep(&mut self, pose: ClipPose, what: T, now: u64) {
+    pub(crate) fn keep(&mut self, pose: RigPose, what: T, now: u64) {
         self.kept.insert(pose, Kept { what, wanted: now });
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::asset::ClipMoment;
+
     use super::*;
 
-    fn pose(number: u32) -> ClipPose {
-        ClipPose { clip: 0, number }
+    fn pose(number: u32) -> RigPose {
+        RigPose::at(Some(ClipMoment { clip: 0, number }))
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::config::AntiAliasing;
 use crate::draw_list::{Batch, DrawList, Run, ShadowList, ViewBatches};
 use crate::falling::Falling;
 use crate::gpu::{
-    Brush, Features, Gpu, Matter, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Sifter, Targets,
+    Brush, Features, Gpu, Layer, Matter, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Sifter, Targets,
 };
 use crate::mesh::{Drawn, Extent, MeshLibrary, Pattern};
 use crate::models::Models;
@@ -51,6 +51,8 @@ pub(crate) struct Job<'a> {
     pub falling: &'a [Falling],
     /// The pictures of models.
     pub store: &'a wgpu::BindGroup,
+    /// Whether anything of them is blended.
+    pub films: bool,
 }
 
 impl Raster {
@@ -71,7 +73,7 @@ impl Raster {
         &self.meshes.extents
     }
 
-    /// The corners of what is drawn that are whole, or of which something is cut out; `None` where it has none of these.
+    /// The corners of what is drawn that are of that matter; `None` where it has none of these.
     pub(crate) fn corners(&self, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
         corners(&self.meshes, &self.models, mesh, matter)
     }
@@ -108,7 +110,8 @@ impl Raster {
                 // The texture of the ids was copied, and is free.
                 let mut pass = begin(encoder, &[attachment(&targets.id_view, None)], &targets.z, span);
                 painter.bind(&mut pass, view);
-                painter.draw_batches(&mut pass, &batches.visible, |_, matter| Brush::Normals(matter));
+                let normals = |_, matter: Matter| Some(Brush::Normals(matter.counted()));
+                painter.draw_batches(&mut pass, &batches.visible, normals);
                 drop(pass);
                 Targets::copy_one(encoder, &targets.id, &planes.normals, span);
             }
@@ -187,31 +190,51 @@ impl Painter<'_> {
             ..Default::default()
         });
         self.bind(&mut pass, view);
-        self.draw_batches(&mut pass, casters, |_, matter| Brush::Shadow(matter));
+        self.draw_batches(&mut pass, casters, |_, matter| Some(Brush::Shadow(matter.counted())));
     }
 
     fn draw_view(&mut self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, one: &View<'_>) {
-        let (features, channels) = (self.job.features, self.job.channels);
-        let picture = |pattern, matter| Brush::Picture(features, pattern, matter);
+        let channels = self.job.channels;
         let color = &targets.color_view;
         let measures = [attachment(&targets.depth_view, None), attachment(&targets.id_view, None)];
         let wants_rgb = channels.contains(Channels::RGB);
         let (smooth, only_rgb) = (&targets.smooth, (channels - Channels::NORMALS) == Channels::RGB);
         if let (Some([color_samples, z_samples]), true) = (smooth, wants_rgb) {
             let mut pass = begin(encoder, &[attachment(color_samples, Some(color))], z_samples, one.span);
-            self.draw_entities(&mut pass, one, picture);
-            self.draw_sky(&mut pass, one);
+            self.draw_picture(&mut pass, one);
         }
         if smooth.is_some() || !wants_rgb {
             if !only_rgb {
                 let mut pass = begin(encoder, &measures, &targets.z, one.span);
-                self.draw_entities(&mut pass, one, |_, matter| Brush::Measures(matter));
+                self.draw_entities(&mut pass, one, |_, matter| Some(Brush::Measures(matter.counted())));
             }
         } else {
             let [depth, id] = measures;
             let mut pass = begin(encoder, &[attachment(color, None), depth, id], &targets.z, one.span);
-            self.draw_entities(&mut pass, one, picture);
-            self.draw_sky(&mut pass, one);
+            self.draw_picture(&mut pass, one);
+        }
+    }
+
+    /// Draws what is there and the sky behind it; over that, in their order, what is blended and counts, what falls, and what is thinner.
+    fn draw_picture(&mut self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
+        let features = self.job.features;
+        self.draw_entities(pass, one, |pattern, matter| {
+            (matter != Matter::Film).then_some(Brush::Picture(features, pattern, matter))
+        });
+        self.draw_sky(pass, one);
+        self.draw_films(pass, one, Layer::Counted);
+        self.draw_drops(pass, one);
+        self.draw_films(pass, one, Layer::Thin);
+    }
+
+    /// Lays the nearest surfaces of a layer of what is blended over what is there: finds them first, so that each pixel has one.
+    fn draw_films(&mut self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>, layer: Layer) {
+        if !self.job.films {
+            return;
+        }
+        let features = self.job.features;
+        for brush in [Brush::Nearest(features, layer), Brush::Laid(features, layer)] {
+            self.draw_entities(pass, one, |_, matter| (matter == Matter::Film).then_some(brush));
         }
     }
 
@@ -219,39 +242,43 @@ impl Painter<'_> {
         &mut self,
         pass: &mut wgpu::RenderPass<'_>,
         one: &View<'_>,
-        brush: impl Fn(Pattern, Matter) -> Brush,
+        brush: impl Fn(Pattern, Matter) -> Option<Brush>,
     ) {
         self.bind(pass, one.index);
         pass.set_bind_group(1, one.shadows, &[]);
         self.draw_batches(pass, &one.batches.visible, brush);
     }
 
-    /// Draws the sky where nothing is, and what falls before all.
+    /// Draws the sky where nothing is.
     fn draw_sky(&mut self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
-        let gpu = self.job.gpu;
-        pass.set_pipeline(self.pipelines.of(gpu, Brush::Sky));
+        pass.set_pipeline(self.pipelines.of(self.job.gpu, Brush::Sky));
         self.job.scenery.bind(pass, one.index);
         pass.draw(0..3, 0..1);
+    }
+
+    /// Draws what falls before all.
+    fn draw_drops(&mut self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
         let drops = self.job.falling[one.index].count;
         if drops > 0 {
-            pass.set_pipeline(self.pipelines.of(gpu, Brush::Precipitation));
+            pass.set_pipeline(self.pipelines.of(self.job.gpu, Brush::Precipitation));
+            self.job.scenery.bind(pass, one.index);
             pass.draw(0..6, 0..drops);
         }
     }
 
-    /// Draws batches in their order, and what is cut out of models after everything that is whole.
+    /// Draws batches in their order, first what is whole, then what is cut out of models, then what of them is blended: of each what has a brush.
     fn draw_batches(
         &mut self,
         pass: &mut wgpu::RenderPass<'_>,
         batches: &[Batch],
-        brush: impl Fn(Pattern, Matter) -> Brush,
+        brush: impl Fn(Pattern, Matter) -> Option<Brush>,
     ) {
         pass.set_bind_group(2, self.job.store, &[]);
         let (mut is_own, mut in_hand) = (false, None);
-        for matter in [Matter::Whole, Matter::Cut] {
+        for matter in Matter::ALL {
             for batch in batches {
+                let Some(wanted) = brush(batch.mesh.pattern(), matter) else { continue };
                 let Some(corners) = corners(self.meshes, self.models, batch.mesh, matter) else { continue };
-                let wanted = brush(batch.mesh.pattern(), matter);
                 if in_hand != Some(wanted) {
                     pass.set_pipeline(self.pipelines.of(self.job.gpu, wanted));
                     in_hand = Some(wanted);
@@ -275,12 +302,12 @@ impl Painter<'_> {
     }
 }
 
-/// The corners of what is drawn that are whole, or of which something is cut out; `None` where it has none of these.
+/// The corners of what is drawn that are of that matter; `None` where it has none of these.
 fn corners(meshes: &Meshes, models: &Models, mesh: Drawn, matter: Matter) -> Option<Range<u32>> {
     match (mesh, matter) {
         (Drawn::Model(id), _) => models.corners(id, matter),
         (Drawn::Own(mesh), Matter::Whole) => Some(meshes.ranges[mesh as usize].clone()),
-        (Drawn::Own(_), Matter::Cut) => None,
+        (Drawn::Own(_), Matter::Cut | Matter::Film) => None,
     }
 }
 

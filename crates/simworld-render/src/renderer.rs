@@ -345,7 +345,7 @@ impl DeviceViews<'_> {
     }
 
     /// Waits, and tells how long each step of it took on the device, s, by the device's own clock: `find`, `light` and `paint` of rays, or
-    /// `measure` where no colour is wanted, `pack` of both backends. Empty on an adapter without such a clock.
+    /// `measure` where no colour is wanted, `glaze` where something is blended, `pack` of both backends. Empty on an adapter without such a clock.
     ///
     /// # Errors
     /// A failing adapter.

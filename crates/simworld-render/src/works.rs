@@ -187,7 +187,8 @@ impl Works {
             if casts.is_empty() {
                 casts.push(Cast::Alone);
             }
-            let rays = Rays { by_table: table.is_some(), cuts: self.coats.are_cut() };
+            let (cuts, films) = (self.coats.are_cut(), self.coats.are_films());
+            let rays = Rays { by_table: table.is_some(), cuts, films };
             raycast.prepare(&self.gpu, &casts, &sight.falling, rays);
             raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
@@ -205,6 +206,7 @@ impl Works {
                 features,
                 falling: &sight.falling,
                 store: self.coats.texels().group(),
+                films: self.coats.are_films(),
             };
             self.raster.draw(&mut encoder, &self.planes, &job);
         }

@@ -17,6 +17,8 @@ pub struct Surface {
     pub places: Vec<[f32; 2]>,
     /// How much is there of each point, 0 to 1, as [`ModelVertex::alpha`](simworld_core::asset::ModelVertex::alpha).
     pub alphas: Vec<f32>,
+    /// Which way is right on the pictures, one for each point, as [`Model::tangents`](simworld_core::asset::Model::tangents) has them; zeros where none is known.
+    pub tangents: Vec<[f32; 4]>,
     /// Three points each, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Runs of triangles of one look, in order; together they are all of them.
@@ -88,6 +90,7 @@ impl Surface {
         self.colors = kept.iter().map(|point| self.colors[*point]).collect();
         self.places = kept.iter().map(|point| self.places[*point]).collect();
         self.alphas = kept.iter().map(|point| self.alphas[*point]).collect();
+        self.tangents = kept.iter().map(|point| self.tangents[*point]).collect();
         self.pick_rig(&kept);
     }
 

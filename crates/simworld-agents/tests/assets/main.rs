@@ -14,4 +14,5 @@ mod models_are_imported;
 mod models_are_posed;
 mod models_move;
 mod scene_files_are_read;
+mod tangents_are_read;
 mod things_are_made_from_words;

@@ -165,6 +165,13 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
     if let Some(rig) = &model.rig {
         rig_of(rig.desc(), hasher);
     }
+    // Only where there are some: models without are known as they were before there were any.
+    if !model.tangents.is_empty() {
+        hasher.u64(model.tangents.len() as u64);
+        for number in model.tangents.as_flattened() {
+            hasher.bytes(&number.to_bits().to_le_bytes());
+        }
+    }
 }
 
 fn rig_of(rig: &RigDesc, hasher: &mut StateHasher) {
@@ -235,6 +242,7 @@ mod tests {
             hulls: vec![Hull { points: corners.to_vec() }],
             images: vec![ModelImage { width: 2, height: 1, pixels: vec![9; 6], ..ModelImage::default() }],
             rig: None,
+            tangents: Vec::new(),
         }
     }
 
@@ -304,6 +312,8 @@ mod tests {
             spoilt(|model| model.parts[0].transparency = Transparency::Cutout { cutoff: 0.0 }),
             spoilt(|model| model.parts[0].transparency = Transparency::Cutout { cutoff: 0.5 }),
             spoilt(|model| model.parts[0].two_sided = true),
+            spoilt(|model| model.tangents = vec![[1.0, 0.0, 0.0, 1.0]; 4]),
+            spoilt(|model| model.tangents = vec![[1.0, 0.0, 0.0, -1.0]; 4]),
             spoilt(|model| model.parts[0].pictures.metal = SOME),
             spoilt(|model| model.parts[0].pictures.emission = SOME),
             spoilt(|model| model.parts[0].pictures.shade = SOME),

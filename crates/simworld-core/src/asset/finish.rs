@@ -134,7 +134,7 @@ pub enum Transparency {
         /// 0 to [`MOST_CUTOFF`].
         cutoff: f32,
     },
-    /// As much is seen of what is behind as is lacking to 1.
+    /// As much is seen of what is behind as is lacking to 1. It has depth, is who is met and throws shadows where it is a half or more.
     Blend,
 }
 

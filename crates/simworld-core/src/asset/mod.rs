@@ -28,8 +28,8 @@ pub use material::Material;
 pub use model::{FARTHEST_PLACE, Hull, LARGEST_MODEL, Model, ModelPart, ModelVertex, Paint};
 pub use model_error::ModelError;
 pub use rig::{
-    Bone, Channel, Clip, Curve, Interpolation, Joint, LONGEST_CLIP_NAME, Local, MOST_WORK, POSE_RATE, Path,
-    PosedModel, Rig, RigDesc, RigError, SkinVertex,
+    Bone, Channel, Clip, ClipMoment, Curve, Interpolation, Joint, LONGEST_CLIP_NAME, Local, MIX_SECONDS,
+    MOMENT_RATE, MOST_WORK, POSE_RATE, Path, PosedModel, Rig, RigDesc, RigError, RigPose, SkinVertex,
 };
 pub use season::{Season, Seasons};
 use serde::{Deserialize, Serialize};

@@ -39,6 +39,11 @@ pub struct Model {
     /// How it moves, if it does.
     #[serde(default)]
     pub rig: Option<Rig>,
+    /// By vertex, the way to the right on the pictures of its part: along the surface, body frame, of length 1; and beside it to which side of that the top
+    /// of the pictures is: 1 where it is to the left, seen from outside, as of pictures that are not mirrored, -1 where it is to the right, and zeros where
+    /// none is known. Bumps are told in that frame, and without it in that of each triangle. Empty where no vertex has one.
+    #[serde(default)]
+    pub tangents: Vec<[f32; 4]>,
 }
 
 /// A corner of triangles.
@@ -192,8 +197,24 @@ impl Model {
         {
             return Err(ModelError::Rig { rig, vertices: count });
         }
+        self.validate_tangents()?;
         self.validate_looks()?;
         self.fits(size)
+    }
+
+    fn validate_tangents(&self) -> Result<(), ModelError> {
+        let (tangents, vertices) = (self.tangents.len(), self.vertices.len());
+        if tangents != 0 && tangents != vertices {
+            return Err(ModelError::Tangents { tangents, vertices });
+        }
+        for (index, [x, y, z, side]) in self.tangents.iter().enumerate() {
+            checked("the tangent of vertex", index, [*x, *y, *z], 1.01)?;
+            if ![-1.0, 0.0, 1.0].contains(side) {
+                let value = [*side, 0.0, 0.0];
+                return Err(ModelError::Number { what: "the side of the tangent of vertex", index, value });
+            }
+        }
+        Ok(())
     }
 
     fn validate_looks(&self) -> Result<(), ModelError> {
@@ -315,6 +336,19 @@ mod tests {
         assert!(matches!(is_none(|model| model.vertices[0].place[1] = f32::NAN), ModelError::Number { .. }));
         assert!(matches!(is_none(|model| model.vertices[0].alpha = 1.5), ModelError::Number { .. }));
         assert!(matches!(is_none(|model| model.vertices[0].alpha = -0.1), ModelError::Number { .. }));
+        let tangent = [0.6, 0.0, 0.8, -1.0];
+        let laid = Model { tangents: vec![tangent; 4], ..wedge() };
+        assert_eq!(laid.validate(Vector3::new(1.0, 1.0, 1.0)), Ok(()));
+        assert!(matches!(
+            is_none(|model| model.tangents = vec![[0.0; 4]; 3]),
+            ModelError::Tangents { tangents: 3, vertices: 4 }
+        ));
+        for wrong in [[f32::NAN, 0.0, 0.0, 1.0], [1.0, 1.0, 1.5, 1.0], [1.0, 0.0, 0.0, 0.5]] {
+            let mut model = Model { tangents: vec![tangent; 4], ..wedge() };
+            model.tangents[2] = wrong;
+            let error = model.validate(Vector3::new(1.0, 1.0, 1.0)).unwrap_err();
+            assert!(matches!(error, ModelError::Number { index: 2, .. }), "{error}");
+        }
     }
 
     #[test]

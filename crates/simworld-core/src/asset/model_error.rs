@@ -130,6 +130,14 @@ pub enum ModelError {
         /// How many there are.
         vertices: usize,
     },
+    /// It has tangents for some of its vertices alone.
+    #[error("it has {tangents} tangents, and {vertices} vertices: give one each, in the same order, or none")]
+    Tangents {
+        /// How many there are.
+        tangents: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// It does not fit its collider.
     #[error(
         "it is {model:?} m long, wide and high, and its collider {collider:?}: give a collider that is as large, and stand \

@@ -12,6 +12,7 @@ pub(crate) mod quadtree;
 mod ray;
 mod relation;
 mod shape;
+mod stride;
 mod world;
 
 use std::ops::ControlFlow;
@@ -30,6 +31,7 @@ pub use naming::NameIndex;
 pub use playing::{CLIP, CLIP_ONCE, CLIP_RATE, CLIP_SINCE};
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
+pub use stride::Stride;
 pub use world::{Mark, World, WorldError, WorldSnapshot};
 
 use crate::asset::Catalogue;
@@ -156,6 +158,11 @@ pub trait Scene: Sync {
         None
     }
 
+    /// How somebody whose model has clips has come to what it shows, if the scene remembers that; the world does, from the end of its first step on.
+    fn stride(&self, _id: EntityId) -> Option<&Stride> {
+        None
+    }
+
     /// What everything is called, if the scene keeps an index of names; the world does.
     fn names(&self) -> Option<&NameIndex> {
         None
@@ -268,6 +275,9 @@ macro_rules! forward_scene {
             }
             fn links(&self, id: EntityId) -> Option<Links<'_>> {
                 (**self).links(id)
+            }
+            fn stride(&self, id: EntityId) -> Option<&Stride> {
+                (**self).stride(id)
             }
             fn names(&self) -> Option<&NameIndex> {
                 (**self).names()

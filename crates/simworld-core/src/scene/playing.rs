@@ -1,7 +1,7 @@
 //! Which clip of its model an entity plays, and where in it it is.
 
-use super::EntityRef;
-use crate::asset::Rig;
+use super::{EntityRef, Scene};
+use crate::asset::{Asset, ClipMoment, Rig, RigPose};
 use crate::value::Value;
 
 /// The attribute of an entity that names the [clip](crate::asset::Clip) that its model plays; without it, its motion and its gesture say. Where the model has
@@ -28,20 +28,26 @@ const WALKING: [&str; 4] = ["walk", "trot", "move", "run"];
 const HURRYING: [&str; 6] = ["run", "gallop", "sprint", "trot", "walk", "move"];
 
 impl EntityRef<'_> {
-    /// The clip of its model that it plays when the world's clock shows so many seconds, and how long it has been playing, s; none where it stands as it rests.
+    /// The clip of its model that it plays when the world's clock shows so many seconds, and how far it is in it, s; none where it stands as it rests.
     ///
     /// What its attribute [`CLIP`] names; else the clip of its gesture; else one of walking or running, where it moves, and of idling,
     /// where it does not. A model that knows none of these plays its first clip: the sails of a mill turn. A beast that can only walk stands still when it rests.
-    pub fn playing(&self, rig: &Rig, seconds: f64) -> Option<(usize, f64)> {
+    ///
+    /// Where `way` says how far it has come (see [`Stride::way`](super::Stride)), in metres of its model, who walks or runs is as far in its clip as its [feet](Rig::pace) go on that way, so that they do not
+    /// slide; all else goes by the clock.
+    pub fn playing(&self, rig: &Rig, seconds: f64, way: Option<f64>) -> Option<(usize, f64)> {
         let attributes = &self.info.attributes;
         let number =
             |key: &str| attributes.get(key).and_then(Value::as_f64).filter(|number| number.is_finite());
-        let clip = match attributes.get(CLIP) {
-            Some(Value::Text(name)) => rig.clip(name),
-            Some(_) => None,
-            None => self.clip_by_motion(rig),
-        }?;
+        let (clip, by_feet) = match attributes.get(CLIP) {
+            Some(Value::Text(name)) => (rig.clip(name)?, false),
+            Some(_) => return None,
+            None => self.clip_by_motion(rig)?,
+        };
         let rate = number(CLIP_RATE).unwrap_or(1.0);
+        if let (true, Some(way), Some(pace)) = (by_feet, way, rig.pace(clip)) {
+            return Some((clip, way / pace * rate));
+        }
         let since = (seconds - number(CLIP_SINCE).unwrap_or(0.0)) * rate;
         let is_once = attributes.get(CLIP_ONCE) == Some(&Value::Bool(true));
         let whole = rig.clips()[clip].seconds();
@@ -55,9 +61,31 @@ impl EntityRef<'_> {
         Some((clip, within))
     }
 
-    fn clip_by_motion(&self, rig: &Rig) -> Option<usize> {
+    /// How its model, which is that of an asset, stands as it is shown: where it is in its [clip](Self::playing), or on its way there from the one before, if the scene [keeps account](Scene::stride) of that.
+    pub fn rig_pose(&self, asset: &Asset, rig: &Rig, scene: &dyn Scene) -> RigPose {
+        let (stride, seconds) = (scene.stride(self.id), scene.clock().seconds());
+        let now = self.moment(asset, rig, seconds, stride.map(|stride| stride.way));
+        stride.map_or(RigPose::at(now), |stride| stride.pose(now, &scene.clock()))
+    }
+
+    /// The moment of its clip at which it is, having come so far, m.
+    pub(super) fn moment(
+        &self,
+        asset: &Asset,
+        rig: &Rig,
+        seconds: f64,
+        way: Option<f64>,
+    ) -> Option<ClipMoment> {
+        // Who is longer than its model has longer legs.
+        let way = way.map(|way| way * asset.collider.size().x / self.info.shape.size().x);
+        let (clip, within) = self.playing(rig, seconds, way)?;
+        Some(ClipMoment { clip: clip as u32, number: rig.clips()[clip].moment_at(within) })
+    }
+
+    /// The clip, and whether its feet go by the way.
+    fn clip_by_motion(&self, rig: &Rig) -> Option<(usize, bool)> {
         if let Some(clip) = self.gesture().and_then(|gesture| rig.clip_like(&[gesture.as_str()])) {
-            return Some(clip);
+            return Some((clip, false));
         }
         let speed = self.twist.linear.norm();
         let words: &[&str] = match speed {
@@ -65,7 +93,8 @@ impl EntityRef<'_> {
             speed if speed >= MOVING => &WALKING,
             _ => &RESTING,
         };
-        rig.clip_like(words).or_else(|| rig.clip_like(&HURRYING).is_none().then_some(0))
+        let found = rig.clip_like(words).map(|clip| (clip, speed >= MOVING));
+        found.or_else(|| rig.clip_like(&HURRYING).is_none().then_some((0, false)))
     }
 }
 
@@ -113,7 +142,7 @@ mod tests {
     ) -> Option<(String, f64)> {
         let (world, id) = fox(speed, attributes);
         let rig = rig(names);
-        let (clip, since) = world.entity(id).unwrap().playing(&rig, seconds)?;
+        let (clip, since) = world.entity(id).unwrap().playing(&rig, seconds, None)?;
         Some((rig.clips()[clip].name.clone(), since))
     }
 

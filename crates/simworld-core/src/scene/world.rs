@@ -10,6 +10,7 @@ mod journal;
 mod read;
 mod slots;
 mod snapshot;
+mod strides;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -20,6 +21,7 @@ use journal::Journal;
 pub use journal::Mark;
 use slots::{Head, check_pose, check_twist, is_called, is_same_motion, nothing};
 pub use snapshot::WorldSnapshot;
+use strides::Strides;
 
 use super::quadtree::Quadtree;
 use super::{ClassIndex, EntityDesc, EntityInfo, EntityRef, NameIndex, Role, SELLS, Scene};
@@ -72,6 +74,8 @@ pub struct World {
     links: BTreeMap<EntityId, KeptLinks>,
     /// Who moves its arms to say something, and in which tick that ends; follows from the attributes.
     gestures: BTreeMap<EntityId, Tick>,
+    /// How who has a model with clips has come to what it shows; saved, and no part of digests.
+    strides: Strides,
     /// Slots with a bond, ascending.
     bonded: Vec<u32>,
     tree: Quadtree,
@@ -221,6 +225,7 @@ impl World {
         self.set_bond(slot, None);
         self.joints.remove(&id);
         self.links.remove(&id);
+        self.strides.remove(&id);
         self.infos[slot] = nothing();
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).remove(id, &desc.info);
@@ -401,6 +406,9 @@ impl World {
             self.emit(order.refused("this world has no traffic"));
         }
         self.clock.advance();
+        if !self.strides.is_empty() {
+            self.stride_on();
+        }
     }
 
     /// Forgets the events of the last step; called at the start of the next, so that readers between see them.

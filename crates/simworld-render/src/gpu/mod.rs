@@ -15,7 +15,7 @@ mod timing;
 
 pub(crate) use device::Gpu;
 pub(crate) use globals::Globals;
-pub(crate) use pipelines::{Brush, Features, Matter, Pipelines};
+pub(crate) use pipelines::{Brush, Features, Layer, Matter, Pipelines, TANGENTS};
 pub(crate) use planes::Planes;
 pub(crate) use programs::Program;
 pub(crate) use readback::{Readback, Readbacks, place};

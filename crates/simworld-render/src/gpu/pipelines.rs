@@ -12,6 +12,9 @@ use crate::config::AntiAliasing;
 use crate::mesh::{Pattern, Vertex};
 use crate::resident::Instance;
 
+/// The slot of the tangents of models, behind those of vertices and instances.
+pub(crate) const TANGENTS: u32 = 2;
+
 /// What is drawn in one way: the key of a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Brush {
@@ -27,15 +30,44 @@ pub(crate) enum Brush {
     Sky,
     /// Rain and snow over the picture.
     Precipitation,
+    /// Which surface of a layer of what is blended is nearest, with depth and ids of what counts.
+    Nearest(Features, Layer),
+    /// Its colour over what is there; the same code, so that it has the same z.
+    Laid(Features, Layer),
 }
 
-/// Which triangles of a mesh.
+/// Which triangles of a mesh, by their numbers in sift.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
 pub(crate) enum Matter {
     /// Those that are there as a whole.
-    Whole,
+    Whole = 0,
     /// Those of models of which something is cut out.
-    Cut,
+    Cut = 1,
+    /// Those of models whose colour is laid over what is behind them.
+    Film = 2,
+}
+
+impl Matter {
+    pub(crate) const ALL: [Self; 3] = [Self::Whole, Self::Cut, Self::Film];
+
+    /// What it is to depth, ids, normals and shadows: what is blended is cut out below a half.
+    pub(crate) const fn counted(self) -> Self {
+        match self {
+            Self::Film => Self::Cut,
+            other => other,
+        }
+    }
+}
+
+/// A layer of what is blended, the lower first; their numbers are those of LAYER in forward_models.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub(crate) enum Layer {
+    /// What counts for depth and ids: of which a half or more is there.
+    Counted = 1,
+    /// What does not.
+    Thin = 2,
 }
 
 /// The pipelines that were made so far.
@@ -144,14 +176,14 @@ impl Layouts {
 
     fn of(&self, brush: Brush) -> &wgpu::PipelineLayout {
         match brush {
-            Brush::Picture(_, Pattern::Model, _) => &self.model,
+            Brush::Picture(_, Pattern::Model, _) | Brush::Nearest(..) | Brush::Laid(..) => &self.model,
             Brush::Picture(..) => &self.lit,
-            Brush::Measures(Matter::Cut) | Brush::Normals(Matter::Cut) | Brush::Shadow(Matter::Cut) => {
-                &self.cut
-            }
-            Brush::Measures(_) | Brush::Normals(_) | Brush::Shadow(_) | Brush::Sky | Brush::Precipitation => {
-                &self.plain
-            }
+            Brush::Measures(Matter::Whole)
+            | Brush::Normals(Matter::Whole)
+            | Brush::Shadow(Matter::Whole)
+            | Brush::Sky
+            | Brush::Precipitation => &self.plain,
+            Brush::Measures(_) | Brush::Normals(_) | Brush::Shadow(_) => &self.cut,
         }
     }
 }
@@ -162,7 +194,12 @@ impl Workshop {
             Variant::of(brush, self.smooth);
         let module = self.modules.entry(program).or_insert_with(|| program.module(gpu));
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        let buffers = [Some(vertex_layout()), Some(instance_layout())];
+        let buffers = [Some(vertex_layout()), Some(instance_layout()), Some(tangent_layout())];
+        let read = match (meshes, program) {
+            (true, Program::Forward(Pattern::Model)) => &buffers[..],
+            (true, _) => &buffers[..TANGENTS as usize],
+            (false, _) => &buffers[..0],
+        };
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(label),
             layout: Some(self.layouts.of(brush)),
@@ -170,7 +207,7 @@ impl Workshop {
                 module,
                 entry_point: Some(vertex),
                 compilation_options: options.clone(),
-                buffers: if meshes { &buffers } else { &[] },
+                buffers: read,
             },
             primitive: wgpu::PrimitiveState {
                 cull_mode: meshes.then_some(wgpu::Face::Back),
@@ -221,6 +258,8 @@ impl Variant {
             Brush::Shadow(matter) => Self::shadow(matter),
             Brush::Sky => Self::sky(smooth),
             Brush::Precipitation => Self::precipitation(smooth),
+            Brush::Nearest(features, layer) => Self::nearest(features, layer, smooth),
+            Brush::Laid(features, layer) => Self::laid(features, layer, smooth),
         }
     }
 
@@ -262,7 +301,7 @@ impl Variant {
         let mut constants =
             vec![("PATTERN", f64::from(pattern as u32)), ("FEATURES", f64::from(features.bits()))];
         if pattern == Pattern::Model {
-            constants.push(("CUT", f64::from(u8::from(matter == Matter::Cut))));
+            constants.push(("CUT", f64::from(u8::from(matter != Matter::Whole))));
         }
         Self { constants, ..Self::of_meshes("picture", Program::Forward(pattern), vertex) }.with_color(
             fragments,
@@ -271,11 +310,40 @@ impl Variant {
         )
     }
 
+    /// Of what is blended, its triangles as a picture has them, without its colour yet.
+    fn nearest(features: Features, layer: Layer, smooth: bool) -> Self {
+        let (all, none) = (wgpu::ColorWrites::ALL, wgpu::ColorWrites::empty());
+        let measures = if layer == Layer::Counted { all } else { none };
+        let mut variant = Self::picture(features, Pattern::Model, Matter::Film, smooth);
+        variant.label = "nearest";
+        variant.constants.push(("LAYER", f64::from(layer as u32)));
+        let targets = [target(COLOR, none), target(DEPTH, measures), target(ID, measures)];
+        for (known, wanted) in variant.targets.iter_mut().zip(targets) {
+            *known = wanted;
+        }
+        variant
+    }
+
+    /// Its colour, where it is nearest.
+    fn laid(features: Features, layer: Layer, smooth: bool) -> Self {
+        let none = wgpu::ColorWrites::empty();
+        let mut variant = Self::nearest(features, layer, smooth);
+        variant.label = "laid";
+        variant.depth = depth_state(wgpu::CompareFunction::Equal, wgpu::DepthBiasState::default());
+        variant.depth.depth_write_enabled = Some(false);
+        for (known, wanted) in
+            variant.targets.iter_mut().zip([overlay(COLOR), target(DEPTH, none), target(ID, none)])
+        {
+            *known = wanted;
+        }
+        variant
+    }
+
     fn measures(matter: Matter) -> Self {
         let all = wgpu::ColorWrites::ALL;
         let (program, vertex, fragment) = match matter {
             Matter::Whole => (Program::Measures, "vertex_measures", "fragment_measures"),
-            Matter::Cut => (Program::Cutouts, "vertex_cut", "fragment_cut_measures"),
+            Matter::Cut | Matter::Film => (Program::Cutouts, "vertex_cut", "fragment_cut_measures"),
         };
         Self {
             fragment: Some(fragment),
@@ -287,7 +355,7 @@ impl Variant {
     fn normals(matter: Matter) -> Self {
         let (program, vertex, fragment) = match matter {
             Matter::Whole => (Program::Normals, "vertex_normals", "fragment_normals"),
-            Matter::Cut => (Program::Cutouts, "vertex_cut", "fragment_cut_normals"),
+            Matter::Cut | Matter::Film => (Program::Cutouts, "vertex_cut", "fragment_cut_normals"),
         };
         Self {
             fragment: Some(fragment),
@@ -300,7 +368,9 @@ impl Variant {
         let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 1.5, clamp: 0.0 };
         let (program, vertex, fragment) = match matter {
             Matter::Whole => (Program::Shadow, "vertex_shadow", None),
-            Matter::Cut => (Program::Cutouts, "vertex_cut_shadow", Some("fragment_cut_shadow")),
+            Matter::Cut | Matter::Film => {
+                (Program::Cutouts, "vertex_cut_shadow", Some("fragment_cut_shadow"))
+            }
         };
         Self {
             fragment,
@@ -351,6 +421,16 @@ fn instance_layout() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
         array_stride: size_of::<Instance>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &ATTRIBUTES,
+    }
+}
+
+/// The tangents of a model, a word each: whoever draws no colour of it reads none.
+fn tangent_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![11 => Uint32];
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<u32>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &ATTRIBUTES,
     }
 }

@@ -32,6 +32,7 @@ const CUTOUTS: &str = include_str!("../shaders/cutouts.wgsl");
 const MODELS: &str = include_str!("../shaders/models.wgsl");
 const FORWARD_MODELS: &str = include_str!("../shaders/forward_models.wgsl");
 const CAST_MODELS: &str = include_str!("../shaders/cast_models.wgsl");
+const CAST_FILMS: &str = include_str!("../shaders/cast_films.wgsl");
 const FORWARD: &str = include_str!("../shaders/forward.wgsl");
 const MEASURES: &str = include_str!("../shaders/measures.wgsl");
 const OCTAHEDRAL: &str = include_str!("../shaders/octahedral.wgsl");
@@ -77,7 +78,8 @@ impl Program {
             Self::Precipitation => vec![COMMON, BINDINGS, NOISE, SKY, DROPS, PRECIPITATION],
             Self::Rays => {
                 let painters = [FACADES, GROUNDS, CARRIAGEWAYS, ROADS, MARKS, PAINTED];
-                let rays = [PICTURES, MODELS, OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL];
+                let rays =
+                    [PICTURES, MODELS, OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL, CAST_FILMS];
                 [&shading[..], &painters, &rays].concat()
             }
         }

@@ -139,7 +139,7 @@ impl Sifter {
     }
 
     /// Sends what changed of the instances, and the sieves of a batch; gives what may be drawn in each of its views. `corners` says which of a mesh
-    /// are whole, or of which something is cut out.
+    /// are of which matter.
     pub(crate) fn hold(
         &mut self,
         gpu: &Gpu,
@@ -168,7 +168,7 @@ impl Sifter {
         self.entries = roomy(gpu, &self.entries, many * 16);
         self.sums = roomy(gpu, &self.sums, (many + 2 * u64::from(WIDE)) * 4);
         self.drawn = roomy(gpu, &self.drawn, many * size_of::<Instance>() as u64);
-        self.draws = roomy(gpu, &self.draws, u64::from(self.kind_count) * 2 * DRAW);
+        self.draws = roomy(gpu, &self.draws, u64::from(self.kind_count) * 3 * DRAW);
         self.group = Some(self.bind(gpu, scenery));
         self.make_pipelines(gpu);
         gpu.check()?;
@@ -275,10 +275,7 @@ impl Sifter {
 
     /// Draws what was found of a run of kinds.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, kinds: &Range<u32>, matter: Matter) {
-        let first = match matter {
-            Matter::Whole => kinds.start,
-            Matter::Cut => self.kind_count + kinds.start,
-        };
+        let first = matter as u32 * self.kind_count + kinds.start;
         pass.multi_draw_indexed_indirect(&self.draws, u64::from(first) * DRAW, kinds.end - kinds.start);
     }
 }

@@ -4,7 +4,7 @@ use super::device::Gpu;
 use crate::RenderError;
 
 /// Steps that one batch may have.
-const MOST: u32 = 8;
+const MOST: u32 = 10;
 
 /// Times the compute passes of one batch after the other; does nothing where the adapter has no clock for that.
 pub(crate) struct Timing {

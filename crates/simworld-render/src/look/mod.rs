@@ -129,9 +129,9 @@ impl Looks {
         if let Some(links) = scene.links(entity.id) {
             return self.articulated(entity, &links, out);
         }
-        let modelled = entity.info.asset.and_then(|id| Some((id, model_of(scene, id)?.1)));
-        if let Some((id, model)) = modelled {
-            let posed = ModelId::of(entity, id, model, scene.clock().seconds());
+        let modelled = entity.info.asset.and_then(|id| Some((id, model_of(scene, id)?)));
+        if let Some((id, (asset, model))) = modelled {
+            let posed = ModelId::of(entity, id, (asset, model), scene);
             return out.push(whole(Drawn::Model(posed), self.of_model(entity, id)));
         }
         let bits = self.bits(entity);

@@ -25,6 +25,7 @@ use buildings::Ridge;
 use figures::Stance;
 pub(crate) use nature::CROWN_RADIUS;
 use people::{Grain, Hair};
+use simworld_core::asset::RigPose;
 pub(crate) use street::LAMP_REACH;
 
 use crate::sources::Source;
@@ -296,15 +297,7 @@ impl MeshId {
 pub(crate) struct ModelId {
     pub source: Source,
     /// None where it stands as it rests.
-    pub pose: Option<ClipPose>,
-}
-
-/// A pose of a clip of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct ClipPose {
-    pub clip: u32,
-    /// Which of the [poses](simworld_core::asset::Clip::poses) of the clip.
-    pub number: u32,
+    pub pose: Option<RigPose>,
 }
 
 /// What is drawn of an entity: a mesh of this crate, or the model of its asset or of a link.

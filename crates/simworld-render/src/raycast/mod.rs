@@ -43,12 +43,28 @@ pub(crate) enum Cast {
     Alone,
 }
 
+/// What of the parts that are blended view rays meet, by the numbers of FILMS in rays.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+enum Films {
+    /// What counts, beside everything else.
+    Too = 0,
+    /// Nothing.
+    Not = 1,
+    /// What counts, and nothing else.
+    Counted = 2,
+    /// What is thinner, and nothing else.
+    Thin = 3,
+}
+
 /// One dispatch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
-    Find,
+    Find(Films),
     Light,
     Paint(Cast),
+    /// Lays a layer of what is blended over a picture that needs these.
+    Glaze(Films, Features),
     Fall,
 }
 
@@ -56,10 +72,11 @@ impl Step {
     /// Its entry point, and the buffers that it binds by their numbers in rays.wgsl and cast.wgsl.
     const fn binds(self) -> (&'static str, [u32; BUFFERS as usize]) {
         match self {
-            Self::Find => ("find", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
+            Self::Find(_) => ("find", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
             Self::Light => ("light", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
             Self::Paint(Cast::Color(_)) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
             Self::Paint(_) => ("measure", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+            Self::Glaze(..) => ("glaze", [0, 1, 2, 3, 4, 5, 6, 7, 8]),
             Self::Fall => ("fall", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
         }
     }
@@ -72,6 +89,8 @@ pub(crate) struct Rays {
     pub by_table: bool,
     /// Whether they may meet what is cut out.
     pub cuts: bool,
+    /// Whether they may meet what is blended.
+    pub films: bool,
 }
 
 /// The twin of `View` in rays.wgsl.
@@ -247,11 +266,17 @@ impl Raycast {
     pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], falling: &[Falling], rays: Rays) {
         let color = casts.iter().copied().find(|cast| matches!(cast, Cast::Color(_)));
         let normals = casts.contains(&Cast::Normals).then_some(Step::Paint(Cast::Normals));
-        // Colour is painted over what normals are reckoned from.
-        let last = Step::Paint(color.unwrap_or(Cast::Alone));
         let falls = color.is_some() && falling.iter().any(|one| one.count > 0);
         let fall = falls.then_some(Step::Fall);
-        let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last), fall];
+        let steps = match color {
+            Some(Cast::Color(features)) if rays.films && !rays.by_table => glazed(features, normals, fall),
+            _ => {
+                // Colour is painted over what normals are reckoned from.
+                let last = Step::Paint(color.unwrap_or(Cast::Alone));
+                let light = color.map(|_| Step::Light);
+                vec![Some(Step::Find(Films::Too)), light, normals, Some(last), fall]
+            }
+        };
         self.prepared = steps.into_iter().flatten().map(|step| (step, rays)).collect();
         for key in &self.prepared {
             let (module, store) = (&self.module, &self.store_layout);
@@ -295,6 +320,22 @@ impl Raycast {
     }
 }
 
+/// The steps of a picture in which something is blended: what is behind that is painted first, and it is laid over in two layers, between which it rains. Normals are those of what counts,
+/// which is found for them beforehand.
+fn glazed(features: Features, normals: Option<Step>, fall: Option<Step>) -> Vec<Option<Step>> {
+    let glaze = |films| Some(Step::Glaze(films, features));
+    vec![
+        normals.map(|_| Step::Find(Films::Too)),
+        normals,
+        Some(Step::Find(Films::Not)),
+        Some(Step::Light),
+        Some(Step::Paint(Cast::Color(features))),
+        glaze(Films::Counted),
+        fall,
+        glaze(Films::Thin),
+    ]
+}
+
 fn pipeline(
     gpu: &Gpu,
     module: &wgpu::ShaderModule,
@@ -325,11 +366,17 @@ fn pipeline(
     let mut constants = vec![("TABLE", flag(rays.by_table))];
     let features = match step {
         Step::Paint(Cast::Color(features)) => features,
-        Step::Find | Step::Light if rays.cuts => Features::CUTS,
+        Step::Glaze(_, features) => features | Features::CUTS,
+        Step::Find(_) | Step::Light if rays.cuts => Features::CUTS,
         _ => Features::empty(),
     };
     constants.push(("FEATURES", f64::from(features.bits())));
     constants.push(("FACING", flag(step == Step::Paint(Cast::Normals))));
+    let films = match step {
+        Step::Find(films) | Step::Glaze(films, _) => films,
+        _ => Films::Too,
+    };
+    constants.push(("FILMS", f64::from(films as u32)));
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("raycast"),
         layout: Some(&layout),

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use simworld_core::asset::Model;
+use simworld_core::asset::{Model, RigPose};
 
 use super::bvh::Tree;
 use super::soup::{Shape, Soup};
-use crate::mesh::{ClipPose, Drawn, MeshId, MeshLibrary, ModelId};
+use crate::mesh::{Drawn, MeshId, MeshLibrary, ModelId};
 use crate::models::ModelMesh;
 use crate::poses::Poses;
 use crate::sources::{Modelled, Source, Sources};
@@ -102,7 +102,7 @@ impl Shapes {
     }
 
     /// Adds poses in place of others, or behind everything, by as many threads as there are.
-    fn add_poses(&mut self, missing: Vec<(ModelId, ClipPose, Modelled<'_>)>) {
+    fn add_poses(&mut self, missing: Vec<(ModelId, RigPose, Modelled<'_>)>) {
         let mut jobs = Vec::with_capacity(missing.len());
         for (id, pose, modelled) in missing {
             let Some(held) = self.models.get_mut(&id.source) else { continue };

@@ -3,6 +3,7 @@
 
 use super::bvh::{Box3, Child, NONE, Tree, WIDTH};
 use super::halves::{Rounding, pair};
+use super::shape::MOST_PIECES;
 use crate::mesh::{Pattern, Vertex};
 use crate::models::ModelMesh;
 
@@ -14,15 +15,20 @@ const LEVELS: u32 = 10;
 /// Pieces of four words that a triangle and a node take, as in rays.wgsl.
 const TRIANGLE: u32 = 5;
 const NODE: u32 = 7;
-/// Pieces of a triangle that stand apart: its normals, and of models also the place of each corner on the picture, and the part.
+/// Pieces of a triangle that stand apart: its normals, each with its tangent, and of models also the place of each corner on the picture, the part, and the alphas.
 const ASIDE: u32 = 3;
 const MODEL_ASIDE: u32 = 5;
+/// Bits of an alpha from 0 to 256.
+const ALPHA: u32 = 9;
 /// Marks a child as a run of triangles; beside it stand their number less one, from bit 28 on, and the first piece.
 const IS_LEAF: u32 = 1 << 31;
 /// From this bit on, a triangle's word of where its normals are has the pattern of its mesh.
 const PATTERN: u32 = 28;
-/// Says in that word that the part of the triangle is cut out; as in rays.wgsl.
+/// Says in that word that the part of the triangle is cut out, or blended, and that it is blended; as in rays.wgsl.
 const IS_CUT: u32 = 1 << 27;
+const IS_FILM: u32 = 1 << 26;
+/// Below these bits there is room for the number of any piece.
+const _: () = assert!(MOST_PIECES <= IS_FILM as usize);
 
 /// A mesh among the pieces.
 #[derive(Clone, Copy, Debug)]
@@ -38,21 +44,28 @@ pub(super) struct Soup<'a> {
     corners: Vec<[&'a Vertex; 3]>,
     /// By corner, the place on pictures, the part and its alpha, of models; none of other meshes.
     spots: Vec<[[f32; 4]; 3]>,
-    /// From this triangle on they are those of parts that are cut out.
+    /// Likewise the tangents, packed.
+    tangents: Vec<[u32; 3]>,
+    /// From this triangle on they are those of parts that are cut out, and from the other on of parts that are blended.
     cut_from: usize,
+    film_from: usize,
     pattern: Pattern,
 }
 
 impl<'a> Soup<'a> {
     pub(super) fn new(vertices: &'a [Vertex], indices: &[u32], pattern: Pattern) -> Self {
         let corners = by_corner(indices, |index| &vertices[index]);
-        Self { cut_from: corners.len(), corners, spots: Vec::new(), pattern }
+        let count = corners.len();
+        let (spots, tangents) = (Vec::new(), Vec::new());
+        Self { corners, spots, tangents, cut_from: count, film_from: count, pattern }
     }
 
     pub(super) fn of_model(mesh: &'a ModelMesh) -> Self {
         Self {
             spots: by_corner(&mesh.indices, |index| mesh.spots[index]),
+            tangents: by_corner(&mesh.indices, |index| mesh.tangents[index]),
             cut_from: mesh.cut_from / 3,
+            film_from: mesh.film_from / 3,
             ..Self::new(&mesh.vertices, &mesh.indices, Pattern::Model)
         }
     }
@@ -72,14 +85,17 @@ impl<'a> Soup<'a> {
 
     /// Adds what stands apart of a triangle.
     fn add_aside(&self, pieces: &mut Vec<[u32; 4]>, number: usize) {
-        let spots = self.spots.get(number);
-        for (corner, vertex) in self.corners[number].iter().enumerate() {
-            let [x, y, z] = vertex.normal;
-            let alpha = spots.map_or(0.0, |spots| spots[corner][3]);
-            pieces.push([x, y, z, alpha].map(f32::to_bits));
+        let tangents = self.tangents.get(number).copied().unwrap_or_default();
+        for (vertex, tangent) in self.corners[number].iter().zip(tangents) {
+            let [x, y, z] = vertex.normal.map(f32::to_bits);
+            pieces.push([x, y, z, tangent]);
         }
-        if let Some([[a, b, ..], [c, d, ..], [e, f, part, _]]) = spots {
-            pieces.extend([[a, b, c, d], [e, f, part, &0.0]].map(|four| four.map(|word| word.to_bits())));
+        if let Some([[a, b, _, p], [c, d, _, q], [e, f, part, r]]) = self.spots.get(number) {
+            pieces.push([a, b, c, d].map(|word| word.to_bits()));
+            // Alphas are whole steps of 1/256.
+            let alphas = [p, q, r].map(|alpha| (alpha * 256.0) as u32);
+            let alphas = alphas[0] | alphas[1] << ALPHA | alphas[2] << (2 * ALPHA);
+            pieces.push([e.to_bits(), f.to_bits(), part.to_bits(), alphas]);
         }
     }
 
@@ -98,8 +114,9 @@ impl<'a> Soup<'a> {
         let aside = if self.spots.is_empty() { ASIDE } else { MODEL_ASIDE };
         let pattern = (self.pattern as u32) << PATTERN;
         for (position, number) in (0..).zip(&tree.order) {
-            let cut = if (*number as usize) < self.cut_from { 0 } else { IS_CUT };
-            let last = pattern | cut | (normals + aside * position);
+            let is_from = |from: usize, bit| if (*number as usize) < from { 0 } else { bit };
+            let kind = is_from(self.cut_from, IS_CUT) | is_from(self.film_from, IS_FILM);
+            let last = pattern | kind | (normals + aside * position);
             add_triangle(&mut pieces, &self.corners[*number as usize], last);
         }
         for number in &tree.order {

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use simworld_core::asset::{Asset, Model};
-use simworld_core::geometry::Vector3;
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
 
 use super::Ball;
@@ -23,14 +22,11 @@ pub(super) fn ball_of(entity: &EntityRef<'_>, scene: &dyn Scene) -> Ball {
     Ball { center, radius: (half + overhang(entity.kind)).max(of_links).max(of_rig) }
 }
 
-/// How far the rig of its model may lead from the origin of an entity, m, whatever it plays.
+/// How far the rig of its model may lead from the origin of an entity, m, whatever it plays, and on the way from that to anything else.
 fn rig_radius(entity: &EntityRef<'_>, (asset, model): (&Asset, &Arc<Model>)) -> Option<f64> {
-    let [low, high] = model.rig.as_ref()?.bounds();
+    let reach = model.rig.as_ref()?.reach();
     let (own, collider) = (entity.info.shape.size(), asset.collider.size());
-    let far = Vector3::from_fn(|axis, _| {
-        f64::from(low[axis].abs().max(high[axis].abs())) * own[axis] / collider[axis]
-    });
-    Some(far.norm())
+    Some(reach * own.component_div(&collider).max())
 }
 
 /// Whether it throws a shadow that one would miss; surfaces lie flat.

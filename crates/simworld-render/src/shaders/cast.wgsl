@@ -10,8 +10,9 @@
 @group(0) @binding(10) var<storage, read> table: array<vec4f>;
 
 var<private> globals: Globals;
-// Whether the sun reaches the point at hand.
+// Whether the sun reaches the point at hand, and how much is there.
 var<private> lit: f32;
+var<private> there: f32;
 
 // Stands beside a triangle that the sun reaches.
 const LIT: u32 = 0x80000000u;
@@ -41,12 +42,21 @@ fn pixel_of(at: vec3u) -> u32 {
     return select(span.x + at.y * span.y + at.x, NOTHING, at.x >= span.z || at.y >= span.w);
 }
 
-fn sight_of(at: vec2u) -> Sight {
+// In the optical frame, of planar depth one.
+fn optical_ray(at: vec2u) -> vec3f {
     let k = views[view].globals.intrinsics;
-    var optical = vec3f((f32(at.x) + 0.5 - k.z) / k.x, (f32(at.y) + 0.5 - k.w) / k.y, 1.0);
+    return vec3f((f32(at.x) + 0.5 - k.z) / k.x, (f32(at.y) + 0.5 - k.w) / k.y, 1.0);
+}
+
+fn sight_of(at: vec2u) -> Sight {
+    var optical = optical_ray(at);
     if (TABLE) {
         optical = table[at.y * views[view].span.z + at.x].xyz;
     }
+    return sight_along(optical);
+}
+
+fn sight_along(optical: vec3f) -> Sight {
     let aside = optical.x * views[view].globals.right.xyz + optical.y * views[view].globals.down.xyz;
     let forward = views[view].globals.forward.xyz;
     let ahead = optical.z * forward + aside;
@@ -99,6 +109,7 @@ fn hit_of(met: Met, number: u32, triangle: u32, direction: vec3f) -> Hit {
     if ((FEATURES & WITH_MODELS) != 0u && is_model(met.material)) {
         let touched = touched(met, number, triangle, steps);
         finish = touched.spot.finish;
+        there = touched.alpha;
         glow = touched.spot.glow;
         bumped = touched.normal;
     } else {
@@ -126,12 +137,25 @@ fn find(@builtin(global_invocation_id) at: vec3u) {
         globals = views[at.z].globals;
     }
     let sight = sight_of(at.xy);
-    let found = trace(sight.origin, sight.direction, views[view].eye.w);
+    let found = trace(sight.origin, sight.direction, views[view].eye.w, FAR_AWAY * 0.1);
     // Parallel rays end at the far plane, as clip space does there.
     let is_far = parallel && found.t > limits.x;
     out_color[pixel] = found.triangle;
     out_depth[pixel] = found.t;
     out_who[pixel] = select(found.number, NOTHING, is_far);
+}
+
+// Whether the sun reaches what was met.
+fn is_lit(met: Met) -> bool {
+    let sun = views[view].globals.sun_direction.xyz;
+    // Leaves let light through.
+    let normal = select(met.normal, sun, met.pattern == 6u && met.material == 0u);
+    var reaches = dot(normal, sun) > 0.0;
+    if (reaches && views[view].globals.bounce.w != 0.0) {
+        let lift = 0.005 + 2e-4 * length(met.relative);
+        reaches = !is_blocked(met.relative + normal * lift, sun, 1e-3);
+    }
+    return reaches;
 }
 
 @compute @workgroup_size(8, 8)
@@ -148,15 +172,7 @@ fn light(@builtin(global_invocation_id) at: vec3u) {
     let triangle = out_color[pixel];
     let sight = sight_of(at.xy);
     let met = met_at(number, triangle, sight.origin + sight.direction * out_depth[pixel]);
-    let sun = views[view].globals.sun_direction.xyz;
-    // Leaves let light through.
-    let normal = select(met.normal, sun, met.pattern == 6u && met.material == 0u);
-    var reaches = dot(normal, sun) > 0.0;
-    if (reaches && views[view].globals.bounce.w != 0.0) {
-        let lift = 0.005 + 2e-4 * length(met.relative);
-        reaches = !is_blocked(met.relative + normal * lift, sun, 1e-3);
-    }
-    if (reaches) {
+    if (is_lit(met)) {
         out_color[pixel] = triangle | LIT;
     }
 }

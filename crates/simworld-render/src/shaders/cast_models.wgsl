@@ -8,16 +8,19 @@ struct Chart {
     corner: vec2f,
     sides: mat2x2f,
     coat: u32,
-    // Of the corners.
+    // Of the corners: alphas, and codes of tangents.
     alpha: vec3f,
+    tangents: vec3u,
 }
 
 fn chart_of(triangle: u32, number: u32) -> Chart {
     let at = pieces[triangle + 4u].w & ADDRESS;
     let p = bitcast<vec4f>(pieces[at + 3u]);
-    let r = bitcast<vec4f>(pieces[at + 4u]);
-    let alpha = bitcast<vec3f>(vec3u(pieces[at].w, pieces[at + 1u].w, pieces[at + 2u].w));
-    return Chart(p.xy, mat2x2f(p.zw - p.xy, r.xy - p.xy), coat_place(instances[number].second.x, r.z), alpha);
+    let last = pieces[at + 4u];
+    let r = bitcast<vec3f>(last.xyz);
+    let alpha = vec3f(vec3u(last.w, last.w >> 9u, last.w >> 18u) & vec3u(511u)) / 256.0;
+    let tangents = vec3u(pieces[at].w, pieces[at + 1u].w, pieces[at + 2u].w);
+    return Chart(p.xy, mat2x2f(p.zw - p.xy, r.xy - p.xy), coat_place(instances[number].second.x, r.z), alpha, tangents);
 }
 
 // Shares of both sides of a triangle that a way in its plane is.
@@ -35,10 +38,21 @@ fn alpha_on(chart: Chart, share: vec2f) -> f32 {
     return dot(chart.alpha, vec3f(1.0 - share.x - share.y, share));
 }
 
-// The part where a ray met its triangle, and its normal there.
+// The tangent on a triangle, world axes; zeros where its first corner has none.
+fn tangent_on(chart: Chart, share: vec2f, scale: vec3f, rotation: vec4f) -> vec4f {
+    if (chart.tangents.x == 0u) {
+        return vec4f(0.0);
+    }
+    let told = tangent_of(chart.tangents.x, scale) * (1.0 - share.x - share.y)
+        + tangent_of(chart.tangents.y, scale) * share.x + tangent_of(chart.tangents.z, scale) * share.y;
+    return vec4f(rotate(rotation, told.xyz), told.w);
+}
+
+// The part where a ray met its triangle, its normal there, and how much of it is there.
 struct Touched {
     spot: Spot,
     normal: vec3f,
+    alpha: f32,
 }
 
 fn touched(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Touched {
@@ -48,13 +62,16 @@ fn touched(met: Met, number: u32, triangle: u32, steps: mat2x3f) -> Touched {
     let inverse = vec4f(-i.rotation.xyz, i.rotation.w);
     let across = chart.sides * shares_of(one, rotate(inverse, steps[0]));
     let down = chart.sides * shares_of(one, rotate(inverse, steps[1]));
-    let place = chart.corner + chart.sides * within_triangle(shares_of(one, met.body - one.a));
+    let share = within_triangle(shares_of(one, met.body - one.a));
+    let place = chart.corner + chart.sides * share;
     let spot = model_spot(chart.coat, model_tint(met.material, i.color.rgb), place, across, down);
     let ways = mat2x3f(rotate(i.rotation, one.ab), rotate(i.rotation, one.ac));
-    return Touched(spot, tilted(met.normal, spot.bump, ways, chart.sides));
+    let tangent = tangent_on(chart, share, i.scale.xyz, i.rotation);
+    return Touched(spot, tilted(met.normal, tangent, spot.bump, ways, chart.sides), alpha_on(chart, share) * spot.alpha);
 }
 
-// Whether a view ray goes through a hole where it meets a triangle; the ray is in the body frame. A ray of a table is no pixel, and sees the finest level.
+// Whether a view ray goes on where it meets a triangle of which there is not all: through a hole, or, where what is thinner than counts is looked for, through what counts, and
+// through next to nothing. The ray is in the body frame. A ray of a table is no pixel, and sees the finest level.
 fn looks_through(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32) -> bool {
     let chart = chart_of(triangle, number);
     let picture = picture_at(chart.coat + COLOR_PICTURE);
@@ -69,7 +86,17 @@ fn looks_through(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32) ->
         level = level_of_picture(picture, across, down);
     }
     let share = within_triangle(shares_of(one, ray.origin + ray.direction * t - one.a));
-    return is_hole(chart.coat, alpha_on(chart, share), chart.corner + chart.sides * share, level);
+    let alpha = alpha_on(chart, share);
+    let place = chart.corner + chart.sides * share;
+    let hole = is_hole(chart.coat, alpha, place, level);
+    if (FILMS != THIN_FILMS) {
+        return hole;
+    }
+    var seen = alpha;
+    if (picture.row >= 0.0) {
+        seen *= pictured(true, picture, place, level).a;
+    }
+    return !hole || seen < FAINTEST;
 }
 
 // Whether the sun shines through a hole where its ray meets a triangle so far from the eye: as blurred as a pixel is wide there.

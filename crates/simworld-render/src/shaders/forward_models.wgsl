@@ -1,7 +1,9 @@
 // Models of assets by triangles: as forward.wgsl, with a place on pictures.
 
-// Whether what is drawn is cut out.
+// Whether what is drawn is cut out, or blended.
 override CUT: bool = false;
+// Which layer of what is blended it is, a `Layer` of gpu/pipelines.rs: 1 for what counts, 2 for what is thinner.
+override LAYER: u32 = 0u;
 
 struct ModelVaryings {
     @builtin(position) position: vec4f,
@@ -18,10 +20,12 @@ struct ModelVaryings {
     @location(8) @interpolate(flat) coat: u32,
     @location(9) @interpolate(flat) id: u32,
     @location(10) alpha: f32,
+    // World axes; see `tangent_of`.
+    @location(11) tangent: vec4f,
 }
 
 @vertex
-fn vertex_model(corner: Corner) -> ModelVaryings {
+fn vertex_model(corner: Corner, @location(11) tangent: u32) -> ModelVaryings {
     let in = vertex_of(corner);
     let relative = relative_point(in);
     let normal = body_normal(in);
@@ -39,6 +43,8 @@ fn vertex_model(corner: Corner) -> ModelVaryings {
     out.extra = vec2f(in.color.w, in.second.w);
     out.coat = coat_place(in.second.x, laid.part);
     out.id = in.who;
+    let told = tangent_of(tangent, in.scale.xyz);
+    out.tangent = vec4f(rotate(in.rotation, told.xyz), told.w);
     return out;
 }
 
@@ -47,14 +53,18 @@ fn model_color(in: ModelVaryings) -> vec4f {
     let down = dpdy(in.place);
     let footprint = fwidth(in.body);
     let ways = mat2x3f(dpdx(in.relative), dpdy(in.relative));
-    if (CUT && falls_away(in.coat, in.alpha, in.place, across, down)) {
+    if (CUT && falls_away(in.coat, in.alpha, in.place, across, down) != (LAYER == 2u)) {
         discard;
     }
     let spot = model_spot(in.coat, in.tint, in.place, across, down);
+    let there = in.alpha * spot.alpha;
+    if (LAYER == 2u && there < FAINTEST) {
+        discard;
+    }
     let normal = normalize(in.normal);
-    let bumped = tilted(normal, spot.bump, ways, mat2x2f(across, down));
+    let bumped = tilted(normal, in.tangent, spot.bump, ways, mat2x2f(across, down));
     let hit = Hit(in.relative, normal, in.body, in.body_normal, spot.finish, in.size, in.extra, 1.0, PATTERN, footprint, spot.glow, bumped);
-    return vec4f(shade(hit), 1.0);
+    return vec4f(shade(hit), select(1.0, there, LAYER != 0u));
 }
 
 @fragment

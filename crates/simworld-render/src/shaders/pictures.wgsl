@@ -112,6 +112,9 @@ fn cutoff_at(coat: u32, level: f32) -> f32 {
     return mix(a, b, level - f32(fine));
 }
 
+// Less of what is blended changes no eighth bit of a colour.
+const FAINTEST: f32 = 0.002;
+
 // Whether there is nothing of a part that is cut out, where its vertices have so much alpha and its picture is seen at that level.
 fn is_hole(coat: u32, alpha: f32, place: vec2f, level: f32) -> bool {
     let cutoff = coat_entry(coat).w;

@@ -50,13 +50,20 @@ var<private> aside: array<vec2u, LEVELS>;
 var<private> open: array<u32, LEVELS>;
 
 const NOTHING: u32 = 0xffffffffu;
-// In the last word of a triangle: where its normals are, and whether its part is cut out.
-const ADDRESS: u32 = 0x07ffffffu;
+// In the last word of a triangle: where its normals are, whether its part is cut out or blended, and whether it is blended.
+const ADDRESS: u32 = 0x03ffffffu;
+const IS_FILM: u32 = 0x04000000u;
 const IS_CUT: u32 = 0x08000000u;
 const IS_LEAF: u32 = 0x80000000u;
 const NO_SHADOW: u32 = 0x80000000u;
 const FAR_AWAY: f32 = 3.0e38;
 const FAR_KEY: u32 = 0x7f000000u;
+// Of what is blended, which triangles view rays meet, a `Films` of raycast/mod.rs: those that count as of what is cut out, none; and of that alone those that
+// count, and those that are thinner.
+override FILMS: u32 = 0u;
+const WITHOUT_FILMS: u32 = 1u;
+const COUNTED_FILMS: u32 = 2u;
+const THIN_FILMS: u32 = 3u;
 // Nodes of equal depth may both hold what is seen, where two surfaces lie in one plane.
 const TIE: f32 = 1.00001;
 
@@ -302,13 +309,23 @@ fn meet_triangles(ray: Ray, code: u32, scale: vec3f, unit: f32, number: u32, sta
         if (tied) {
             wins = comes_first(number, old.number);
         }
-        if ((FEATURES & WITH_CUTS) != 0u && wins && (pieces[at + 4u].w & IS_CUT) != 0u) {
-            wins = !looks_through(ray, t, one, at, number);
+        if ((FEATURES & WITH_CUTS) != 0u && wins) {
+            wins = is_there(ray, t, one, at, number);
         }
         if (wins) {
             *best = Found(t, number, at);
         }
     }
+}
+
+// Whether a ray meets anything where it meets a triangle.
+fn is_there(ray: Ray, t: f32, one: Triangle, triangle: u32, number: u32) -> bool {
+    let last = pieces[triangle + 4u].w;
+    let is_film = (last & IS_FILM) != 0u;
+    if ((FILMS == WITHOUT_FILMS && is_film) || (FILMS >= COUNTED_FILMS && !is_film)) {
+        return false;
+    }
+    return (last & IS_CUT) == 0u || !looks_through(ray, t, one, triangle, number);
 }
 
 fn comes_first(number: u32, other: u32) -> bool {
@@ -410,9 +427,9 @@ fn meet_leaf(leader: u32, world: Ray, origin: vec3f, start: f32, base: u32, best
     }
 }
 
-// The first thing on a ray; the tree of what moves comes behind that of what stands.
-fn trace(origin: vec3f, direction: vec3f, start: f32) -> Found {
-    var best = Found(FAR_AWAY * 0.1, NOTHING, 0u);
+// The first thing on a ray before `limit`; the tree of what moves comes behind that of what stands.
+fn trace(origin: vec3f, direction: vec3f, start: f32, limit: f32) -> Found {
+    var best = Found(limit, NOTHING, 0u);
     let ray = ray_of(eye + origin, direction);
     var rest = views[view].hidden.y;
     var height = 0u;

@@ -35,9 +35,10 @@ struct Kind {
     threshold: u32,
     is_flat: u32,
     spare: u32,
-    // First corner and count: of what is whole, and of what is cut out.
+    // First corner and count: of what is whole, of what is cut out, and of what is blended.
     whole: vec2u,
     cut: vec2u,
+    film: vec2u,
 }
 
 @group(0) @binding(0) var<uniform> sieve: Sieve;
@@ -52,7 +53,7 @@ struct Kind {
 // How many come through, then what is summed up.
 @group(0) @binding(6) var<storage, read_write> sums: array<u32>;
 @group(0) @binding(7) var<storage, read_write> drawn: array<vec4u>;
-// Five numbers to a draw: of every kind what is whole, then of every kind what is cut out.
+// Five numbers to a draw: of every kind what is whole, then of every kind what is cut out, then what is blended.
 @group(0) @binding(8) var<storage, read_write> draws: array<u32>;
 // How many groups look at those that come through.
 @group(1) @binding(0) var<storage, read_write> groups: array<u32>;
@@ -339,4 +340,5 @@ fn tell(@builtin(global_invocation_id) at: vec3u) {
     let many = first_of((kind + 1u) * BUCKETS) - first;
     draw(kind, kinds[kind].whole, first, many);
     draw(count + kind, kinds[kind].cut, first, many);
+    draw(2u * count + kind, kinds[kind].film, first, many);
 }

@@ -104,11 +104,12 @@ fn what_a_clip_has_led_away_is_drawn_there() {
     for (backend, mut renderer) in renderers {
         let rest = draw(&mut renderer, &put_there(&sign(), 0.0, 0.0), &camera());
         for (name, seconds, left, yaw) in [
-            ("slide", 0.25, 0.9333, 0.0),
-            ("slide", 0.75, 2.9333, 0.0),
-            ("turn", 0.25, 0.0, half * 7.0 / 30.0),
-            ("turn", 0.75, 0.0, half * 22.0 / 30.0),
-            ("turn", 1.25, 0.0, half * 7.0 / 30.0),
+            ("slide", 0.25, 1.0, 0.0),
+            ("slide", 0.75, 3.0, 0.0),
+            ("slide", 0.77, 4.0 * 46.0 / 60.0, 0.0),
+            ("turn", 0.25, 0.0, half * 0.25),
+            ("turn", 0.76, 0.0, half * 45.0 / 60.0),
+            ("turn", 1.25, 0.0, half * 0.25),
         ] {
             let (world, _) = playing(&sign(), name, seconds);
             let moved = draw(&mut renderer, &world, &camera());
@@ -159,21 +160,54 @@ fn clips_follow_the_clock_and_the_motion() {
         while world.clock().seconds() < 0.5 {
             world.finish_step();
         }
-        let number = (world.clock().seconds() * 30.0 + 1e-6).floor();
+        let shown = |world: &World| (world.clock().seconds() * 60.0 + 1e-6).floor() / 60.0;
         let idle = draw(&mut renderer, &world, &camera());
-        let yaw = std::f64::consts::PI * number / 30.0;
+        let yaw = std::f64::consts::PI * shown(&world);
         let turned = draw(&mut renderer, &put_there(&sign(), 0.0, yaw), &camera());
         assert!(others(&idle, &turned) < 0.002, "{backend}: who stands idles");
         let twist = Twist { linear: Vector3::y() * 1.2, ..Twist::ZERO };
         let pose = *world.entity(id).unwrap().pose;
         world.set_motion(id, pose, twist).unwrap();
+        let begins = draw(&mut renderer, &world, &camera());
+        assert!(others(&begins, &idle) < 0.002, "{backend}: it begins with the next step");
+        // Half of the way in a tenth of a second, and then all of it.
+        world.finish_step();
+        let between = draw(&mut renderer, &world, &camera());
+        let half = draw(&mut renderer, &put_there(&sign(), shown(&world) * 2.0, yaw * 0.5), &camera());
+        assert!(others(&between, &half) < 0.002, "{backend}: one goes over into the other");
+        world.finish_step();
         let walking = draw(&mut renderer, &world, &camera());
-        let aside = draw(&mut renderer, &put_there(&sign(), number * 4.0 / 30.0, 0.0), &camera());
+        let aside = draw(&mut renderer, &put_there(&sign(), shown(&world) * 4.0, 0.0), &camera());
         assert!(others(&walking, &aside) < 0.002, "{backend}: who moves walks");
         world.set_attribute(id, CLIP, Some("swim".into())).unwrap();
+        (0..2).for_each(|_| world.finish_step());
         let rests = draw(&mut renderer, &world, &camera());
         let rest = draw(&mut renderer, &put_there(&sign(), 0.0, 0.0), &camera());
         assert!(others(&rests, &rest) < 0.002, "{backend}: what it has not is not played");
+    }
+}
+
+/// Who goes over into a clip without being touched otherwise is drawn anew, and a saved world goes on in the middle of that.
+#[test]
+fn a_change_is_seen_though_nothing_else_happens() {
+    let Some(renderers) = backends() else { return };
+    for (backend, mut renderer) in renderers {
+        let mut world = World::new();
+        let id = add(&mut world, &moving(sign()), FOOT);
+        world.set_attribute(id, CLIP, Some("swim".into())).unwrap();
+        (0..3).for_each(|_| world.finish_step());
+        let rest = draw(&mut renderer, &world, &camera());
+        play(&mut world, id, "slide", 0.4);
+        assert!(draw(&mut renderer, &world, &camera()).rgb == rest.rgb, "{backend}: not yet");
+        for left in [0.5 * 4.0 * 0.5, 0.6 * 4.0, 0.7 * 4.0] {
+            world.finish_step();
+            let got = draw(&mut renderer, &world, &camera());
+            let wanted = draw(&mut renderer, &put_there(&sign(), left, 0.0), &camera());
+            assert!(others(&got, &wanted) < 0.002, "{backend}: {left} m to the left");
+            let again = World::restore(world.snapshot()).unwrap();
+            let again = draw(&mut renderer, &again, &camera());
+            assert!(again.rgb == got.rgb && again.depth == got.depth, "{backend}: as it was saved");
+        }
     }
 }
 

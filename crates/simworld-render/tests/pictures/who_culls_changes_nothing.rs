@@ -2,7 +2,7 @@
 
 use crate::common::models::{add, ball, card};
 use crate::common::{crossroads, put, renderer, square, square_camera};
-use simworld_core::asset::{Finish, ModelImage, ModelPart, Transparency};
+use simworld_core::asset::{Asset, Finish, ModelImage, ModelPart, Transparency};
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point3, Twist, Vector3};
 use simworld_core::id::EntityId;
@@ -148,7 +148,7 @@ fn one_of_everything() {
     }
 }
 
-/// Models that rest are found by the device, with what is cut out of them; while one plays a clip the host culls.
+/// Models that rest are found by the device, with what is cut out of them and what of them is blended; while one plays a clip the host culls.
 #[test]
 fn models_are_found_too() {
     let Some(mut pair) = pair(&RenderConfig::default()) else { return };
@@ -157,11 +157,14 @@ fn models_are_found_too() {
     let pixels = vec![200; 3 * 64];
     let alpha = (0..64_u8).map(|index| if index % 3 == 0 { 0 } else { 255 }).collect();
     let image = ModelImage { width: 8, height: 8, pixels, alpha, ..ModelImage::default() };
+    let glass = |part: &mut ModelPart| part.transparency = Transparency::Blend;
+    let glass = Asset { name: "glass".into(), ..card(image.clone(), [[0.0; 2], [1.0; 2]], glass) };
     let (ball, card) = (ball([0.2, 0.5, 0.3], Finish::default()), card(image, [[0.0; 2], [1.0; 2]], holes));
     let mut last = None;
     for step in 0..4 {
         // Each under an asset of its own, and one of them goes.
         add(&mut world, &ball, [f64::from(step) * 2.0, 1.0, 0.0]);
+        add(&mut world, &glass, [f64::from(step) - 3.0, 0.4, 0.7]);
         if let Some(id) = last.replace(add(&mut world, &card, [f64::from(step), -1.0, 0.5])) {
             world.remove(id).expect("it lives");
         }

@@ -3,10 +3,10 @@
 //! Files come from strangers. Everything must stand in the one file: no address is followed, and no other file is opened.
 //! Lengths, counts, indices and depths are checked before memory is taken for them. What is read: the triangles of one scene,
 //! where its nodes put them, or its skins' joints, at rest or at a moment of an animation, and how its animations move them; with normals, and colours from
-//! materials and vertices, alpha where a material says what is to become of it, and whether it has two sides; PNG or JPEG textures of all five kinds, as far as those of one primitive lie alike:
+//! materials and vertices, alpha where a material says what is to become of it, and whether it has two sides; tangents where there is a picture of normals and nothing turns it; PNG or JPEG textures of all five kinds, as far as those of one primitive lie alike:
 //! of metal, roughness and light of its own that lie otherwise the mean is read, and such of occlusion and normals are passed over; and the extensions `KHR_texture_transform`, `KHR_mesh_quantization`, `KHR_materials_unlit` and
 //! `KHR_materials_emissive_strength`. Sparse accessors, morph targets, compressed meshes, other extensions that a file requires, and
-//! everything but separate triangles are refused; cameras, lights and tangents are passed over.
+//! everything but separate triangles are refused; cameras and lights are passed over.
 
 mod accessor;
 mod container;

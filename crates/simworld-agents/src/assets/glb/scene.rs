@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Matrix4};
 use simworld_core::asset::{ModelPart, Paint};
 use simworld_core::geometry::{Point3, Vector3};
 
-use super::accessor::{Column, Data, Number, get, unsupported};
+use super::accessor::{Column, Data, Normalized, Number, get, unsupported};
 use super::document::{Node, Primitive, TRIANGLES};
 use super::error::GlbError;
 use super::limits::GlbLimits;
@@ -149,21 +149,15 @@ impl Gatherer<'_> {
             }
             self.surface.points.push(point);
         }
-        match column("NORMAL") {
-            Some(index) => {
-                let normals = self.data.column(index, &[("VEC3", 3)], |number, normalized| {
-                    number == Number::F32 || (self.data.is_quantized() && is_share(number, normalized))
-                })?;
-                same_length(index, normals.count, positions.count)?;
-                let normals = (0..normals.count).map(|row| map(row).normal(normals.reals(row)));
-                self.surface.normals.extend(normals);
-            }
-            None => self.surface.normals.resize(self.surface.points.len(), Vector3::zeros()),
-        }
+        self.normals(primitive, positions.count, map)?;
         let coat = self.painter.coat(primitive, positions.count, &triangles)?;
         self.surface.colors.extend(coat.colors);
         self.surface.places.extend(coat.places);
         self.surface.alphas.extend(coat.alphas);
+        if coat.pictures.bumps.is_some() {
+            self.tangents(primitive, positions.count, map)?;
+        }
+        self.surface.tangents.resize(self.surface.points.len(), [0.0; 4]);
         let paint = if coat.says == Says::Color { Paint::Own } else { Paint::Entity };
         let name = name.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
         self.surface.parts.push(ModelPart {
@@ -181,6 +175,51 @@ impl Gatherer<'_> {
             if map((a - first) as usize).mirrors { [a, c, b] } else { [a, b, c] }
         }));
         Ok(())
+    }
+
+    /// Adds the normals of so many vertices of a primitive; none where it has none.
+    fn normals<'m>(
+        &mut self,
+        primitive: &Primitive,
+        count: usize,
+        map: impl Fn(usize) -> &'m Map,
+    ) -> Result<(), GlbError> {
+        if let Some(index) = primitive.attributes.get("NORMAL") {
+            let column = self.data.column(*index, &[("VEC3", 3)], self.is_direction())?;
+            same_length(*index, column.count, count)?;
+            self.surface.normals.extend((0..count).map(|row| map(row).normal(column.reals(row))));
+        }
+        self.surface.normals.resize(self.surface.points.len(), Vector3::zeros());
+        Ok(())
+    }
+
+    /// Adds the tangents of so many vertices of a primitive, if there are some that hold: as glTF has it, those without normals are none. Where a transform
+    /// turns or mirrors the picture of bumps, its right is no longer that of the tangents.
+    fn tangents<'m>(
+        &mut self,
+        primitive: &Primitive,
+        count: usize,
+        map: impl Fn(usize) -> &'m Map,
+    ) -> Result<(), GlbError> {
+        let bumps = primitive
+            .material
+            .and_then(|index| self.data.document.materials.get(index)?.normal_texture.as_ref())
+            .and_then(|info| info.extensions.transform);
+        let is_straight = bumps.is_none_or(|transform| {
+            transform.rotation == 0.0 && transform.scale.iter().all(|scale| *scale > 0.0)
+        });
+        let holds = is_straight && primitive.attributes.contains_key("NORMAL");
+        let Some(index) = primitive.attributes.get("TANGENT").filter(|_| holds) else { return Ok(()) };
+        let column = self.data.column(*index, &[("VEC4", 4)], self.is_direction())?;
+        same_length(*index, column.count, count)?;
+        self.surface.tangents.extend((0..count).map(|row| map(row).tangent(column.reals(row))));
+        Ok(())
+    }
+
+    /// How directions are written.
+    fn is_direction(&self) -> impl Fn(Number, Normalized) -> bool {
+        let is_quantized = self.data.is_quantized();
+        move |number, normalized| number == Number::F32 || (is_quantized && is_share(number, normalized))
     }
 
     /// From the mesh to the body for each vertex of a primitive that joints bear; for all of them alike without joints. The rig learns
@@ -287,5 +326,16 @@ impl Map {
             .try_normalize(1e-30)
             .filter(|normal| normal.iter().all(|number| number.is_finite()))
             .unwrap_or_else(Vector3::zeros)
+    }
+
+    /// Of length 1, with the side of the top of pictures beside it, which a mirror changes; zeros where the file has none that can be used.
+    fn tangent(&self, [x, y, z, side]: [f64; 4]) -> [f32; 4] {
+        let linear = self.matrix.fixed_view::<3, 3>(0, 0).into_owned();
+        let way = linear * Vector3::new(x, y, z);
+        let way = Vector3::new(way.z, way.x, way.y)
+            .try_normalize(1e-30)
+            .filter(|way| way.iter().all(|number| number.is_finite()));
+        let side = if (side < 0.0) == self.mirrors { 1.0 } else { -1.0 };
+        way.map_or([0.0; 4], |way| [way.x as f32, way.y as f32, way.z as f32, side])
     }
 }

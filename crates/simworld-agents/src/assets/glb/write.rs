@@ -47,6 +47,7 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
     let is_textured = model.parts.iter().any(has_pictures);
     let place = is_textured
         .then(|| file.column(&model.vertices.iter().map(|vertex| vertex.place).collect::<Vec<_>>()));
+    let tangents = tangents(model, &mut file);
     let pictures: Vec<Option<usize>> = model.images.iter().map(|image| file.picture(image)).collect();
     for (part, triangles) in model.runs().filter(|(_, triangles)| !triangles.is_empty()) {
         let corners = triangles.as_flattened();
@@ -63,11 +64,31 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
         if let (Some(place), true) = (place, has_pictures(part)) {
             attributes["TEXCOORD_0"] = json!(place);
         }
+        let is_laid =
+            |corner: &u32| model.tangents.get(*corner as usize).is_some_and(|[.., side]| *side != 0.0);
+        if let (Some(tangents), true) = (tangents, corners.iter().all(is_laid)) {
+            attributes["TANGENT"] = json!(tangents);
+        }
         let material = file.material(part, &pictures);
         file.primitives
             .push(json!({"attributes": attributes, "indices": indices, "material": material, "mode": 4}));
     }
     file.pack()
+}
+
+/// Adds the tangents of vertices, where a model has some; the number of their accessor. Those without one, which no primitive that has them uses, get one all the
+/// same, since a tangent has a length.
+fn tangents(model: &Model, file: &mut File) -> Option<usize> {
+    if model.tangents.is_empty() {
+        return None;
+    }
+    let turned = |[x, y, z, side]: &[f32; 4]| [*y, *z, *x, *side];
+    let own: Vec<[f32; 4]> = match &model.rig {
+        Some(rig) => rig.desc().tangents_of_skin(&model.tangents),
+        None => model.tangents.iter().map(turned).collect(),
+    };
+    let some = |tangent: [f32; 4]| if tangent[3] == 0.0 { [1.0, 0.0, 0.0, 1.0] } else { tangent };
+    Some(file.column(&own.into_iter().map(some).collect::<Vec<_>>()))
 }
 
 /// A file as it grows.

@@ -181,6 +181,7 @@ fn place(
     if turns {
         surface.points.iter_mut().for_each(|point| *point = Point3::new(-point.y, point.x, point.z));
         surface.normals.iter_mut().for_each(|normal| *normal = Vector3::new(-normal.y, normal.x, normal.z));
+        surface.tangents.iter_mut().for_each(|[x, y, ..]| (*x, *y) = (-*y, *x));
         let quarter = Matrix3::from_rows(&[
             -Vector3::y().transpose(),
             Vector3::x().transpose(),
@@ -283,8 +284,10 @@ fn model(mut surface: Surface, solids: Vec<Solid>) -> Result<Model, RigError> {
             alpha: *alpha,
         })
         .collect();
+    let is_known = surface.tangents.iter().any(|[.., side]| *side != 0.0);
     Ok(Model {
         vertices,
+        tangents: if is_known { surface.tangents } else { Vec::new() },
         triangles: surface.triangles,
         parts: surface.parts,
         hulls: solids.into_iter().map(|solid| solid.hull).collect(),

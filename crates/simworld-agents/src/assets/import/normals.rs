@@ -63,5 +63,7 @@ fn share(surface: &mut Surface, normals: &[Vector3]) {
     surface.places = former.iter().map(|point| surface.places[*point]).collect();
     surface.alphas = former.iter().map(|point| surface.alphas[*point]).collect();
     surface.pick_rig(&former);
+    // Those of the file stood beside normals that are no more.
+    surface.tangents = vec![[0.0; 4]; former.len()];
     surface.normals = kept;
 }

@@ -100,12 +100,12 @@ impl Curve {
     }
 }
 
-fn line<const N: usize>(a: [f64; N], b: [f64; N], weights: [f64; 2]) -> [f64; N] {
+pub(super) fn line<const N: usize>(a: [f64; N], b: [f64; N], weights: [f64; 2]) -> [f64; N] {
     std::array::from_fn(|axis| a[axis] * weights[0] + b[axis] * weights[1])
 }
 
 /// Along the shorter arc between unit quaternions.
-fn slerp<const N: usize>(a: [f64; N], b: [f64; N], share: f64) -> [f64; N] {
+pub(super) fn slerp<const N: usize>(a: [f64; N], b: [f64; N], share: f64) -> [f64; N] {
     let cosine: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
     let side = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = ops::acos((cosine * side).min(1.0));

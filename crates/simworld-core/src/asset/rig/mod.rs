@@ -3,14 +3,18 @@
 mod check;
 mod curve;
 mod error;
+mod measure;
+mod moment;
 mod pose;
 
 pub use curve::{Curve, Interpolation, Path};
 pub use error::{LONGEST_CLIP_NAME, RigError};
+use measure::Measures;
+pub use moment::{ClipMoment, MIX_SECONDS, MOMENT_RATE, RigPose};
 pub use pose::PosedModel;
 use serde::{Deserialize, Serialize};
 
-/// Poses of a clip that are told apart, a second: a renderer draws these, so that all who are in one pose are drawn as one mesh.
+/// Poses of a clip that are looked up in its curves, a second; what is between two of them is reckoned from both.
 pub const POSE_RATE: f64 = 30.0;
 
 /// Joints and bones, times poses of all clips, that a rig may have.
@@ -42,8 +46,7 @@ pub const MOST_WORK: u64 = 4_000_000;
 #[serde(try_from = "RigDesc", into = "RigDesc")]
 pub struct Rig {
     desc: RigDesc,
-    /// The box around all poses of all clips.
-    bounds: [[f32; 3]; 2],
+    measures: Measures,
 }
 
 /// What a [`Rig`] is made of.
@@ -172,17 +175,6 @@ impl Clip {
         // Bounded by what a rig may have; a clip of one key is one pose.
         ((self.seconds() * POSE_RATE).ceil() as u32).max(1)
     }
-
-    /// Which of its poses it is in, so long after it began: it starts over when it ends.
-    pub fn pose_at(&self, seconds: f64) -> u32 {
-        let whole = self.seconds();
-        if whole <= 0.0 || !seconds.is_finite() {
-            return 0;
-        }
-        // Ticks are sums of fractions: a hair before a pose is that pose.
-        let within = (seconds + 1e-9).rem_euclid(whole);
-        ((within * POSE_RATE) as u32).min(self.poses() - 1)
-    }
 }
 
 impl Rig {
@@ -193,8 +185,8 @@ impl Rig {
     /// [`RigError`].
     pub fn new(desc: RigDesc) -> Result<Self, RigError> {
         check::check(&desc)?;
-        let bounds = pose::bounds(&desc)?;
-        Ok(Self { desc, bounds })
+        let measures = measure::measure(&desc)?;
+        Ok(Self { desc, measures })
     }
 
     /// What it is made of.
@@ -209,7 +201,19 @@ impl Rig {
 
     /// The lowest and the highest corner of a box in which it stays in every pose of every clip, body frame, m.
     pub const fn bounds(&self) -> [[f32; 3]; 2] {
-        self.bounds
+        self.measures.bounds
+    }
+
+    /// How far from the body's origin it reaches at most, m, at any moment of its clips and on the way from any to any other: as a stretched arm does. No farther than twice
+    /// [as far as a model may be](super::LARGEST_MODEL).
+    pub const fn reach(&self) -> f64 {
+        self.measures.reach
+    }
+
+    /// How fast a clip walks, m/s ahead: as fast as its feet go back while they bear, so that they stand where they are on the ground if the body comes as far. `None` where no such speed can be told: of what does
+    /// not walk, and of clips that lead the body along.
+    pub fn pace(&self, clip: usize) -> Option<f64> {
+        self.measures.paces.get(clip).copied().flatten()
     }
 
     /// The clip of a name, whatever its case.
@@ -226,12 +230,23 @@ impl Rig {
     /// Where its vertices are in a clip, so long after it began; at rest if there is no such clip. Before the first key and behind the last it stands
     /// still.
     pub fn pose(&self, clip: usize, seconds: f64) -> PosedModel {
-        pose::pose(&self.desc, self.desc.clips.get(clip), seconds)
+        pose::pose(&self.desc, &pose::locals(&self.desc, self.desc.clips.get(clip), seconds))
+    }
+
+    /// Where its vertices are as it is shown.
+    pub fn posed(&self, pose: RigPose) -> PosedModel {
+        pose::pose(&self.desc, &pose::shown(&self.desc, pose))
     }
 
     /// Where its vertices are while no clip moves them.
     pub fn rest(&self) -> PosedModel {
-        pose::pose(&self.desc, None, 0.0)
+        pose::pose(&self.desc, &pose::locals(&self.desc, None, 0.0))
+    }
+
+    /// Which way the [tangents](super::Model::tangents) of its model at rest point as it is shown.
+    pub fn tangents(&self, rest: &[[f32; 4]], pose: RigPose) -> Vec<[f32; 4]> {
+        let skin = self.desc.tangents_of_skin(rest);
+        pose::tangents(&self.desc, &skin, &pose::shown(&self.desc, pose))
     }
 }
 
@@ -239,6 +254,11 @@ impl RigDesc {
     /// Says which way its vertices face at rest, body frame, one for each in their order: finds their normals in the frame of the skin.
     pub fn face(&mut self, normals: &[[f32; 3]]) {
         pose::face(self, normals);
+    }
+
+    /// The [tangents](super::Model::tangents) in the frame of the skin that are these at rest; zeros where there is no way back, as on what is scaled to nothing.
+    pub fn tangents_of_skin(&self, rest: &[[f32; 4]]) -> Vec<[f32; 4]> {
+        pose::of_skin(self, rest)
     }
 }
 
@@ -258,11 +278,9 @@ impl From<Rig> for RigDesc {
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
     use super::*;
 
-    fn turn(axis: usize, angle: f32, seconds: f32) -> Curve {
+    pub(super) fn turn(axis: usize, angle: f32, seconds: f32) -> Curve {
         let mut key = [0.0; 4];
         (key[axis], key[3]) = ((angle * 0.5).sin(), (angle * 0.5).cos());
         let values = [[0.0, 0.0, 0.0, 1.0], key].concat();
@@ -270,7 +288,7 @@ mod tests {
     }
 
     /// An upper arm of 1 m along x and a forearm of 1 m behind it; three points on it: shoulder, elbow (half and half), hand.
-    fn arm() -> RigDesc {
+    pub(super) fn arm() -> RigDesc {
         let at = |x: f64| Local::Parts {
             translation: [x, 0.0, 0.0],
             rotation: [0.0, 0.0, 0.0, 1.0],
@@ -298,7 +316,7 @@ mod tests {
         }
     }
 
-    fn is_near(got: [f32; 3], wanted: [f32; 3]) -> bool {
+    pub(super) fn is_near(got: [f32; 3], wanted: [f32; 3]) -> bool {
         got.iter().zip(wanted).all(|(got, wanted)| (got - wanted).abs() < 1e-6)
     }
 
@@ -330,50 +348,23 @@ mod tests {
     }
 
     #[test]
-    fn a_clip_starts_over_when_it_ends() {
-        let clip = &arm().clips[0];
-        assert_eq!((clip.seconds(), clip.poses()), (1.0, 30));
-        for (seconds, pose) in
-            [(0.0, 0), (0.5, 15), (0.999, 29), (1.0, 0), (1.5, 15), (-0.25, 22), (3.2, 6), (f64::NAN, 0)]
-        {
-            assert_eq!(clip.pose_at(seconds), pose, "{seconds} s");
-        }
-        let still = Clip::default();
-        assert_eq!((still.poses(), still.pose_at(4.0)), (1, 0));
-    }
-
-    proptest! {
-        /// Whatever the joints do, every vertex of every pose is in the box that is said to be around all of them.
-        #[test]
-        fn every_pose_is_in_the_bounds(
-            angles in prop::array::uniform3(-3.0..3.0f32),
-            shift in prop::array::uniform3(-2.0..2.0f32),
-            seconds in 0.05..2.0f32,
-        ) {
-            let mut desc = arm();
-            desc.clips[0].channels = (0..2_u32)
-                .map(|joint| Channel {
-                    joint,
-                    path: Path::Rotation,
-                    curve: turn(joint as usize, angles[joint as usize], seconds),
-                })
-                .collect();
-            let curve = Curve {
-                interpolation: Interpolation::Linear,
-                times: vec![0.0, seconds],
-                values: [[0.0; 3], shift].concat(),
-            };
-            desc.clips[0].channels.push(Channel { joint: 0, path: Path::Translation, curve });
-            let rig = Rig::new(desc).unwrap();
-            let [low, high] = rig.bounds();
-            for pose in 0..rig.clips()[0].poses() {
-                for point in rig.pose(0, f64::from(pose) / POSE_RATE).positions {
-                    for axis in 0..3 {
-                        prop_assert!(point[axis] >= low[axis] - 1e-5 && point[axis] <= high[axis] + 1e-5);
-                    }
-                }
-            }
-        }
+    fn tangents_are_led_by_what_carries_them() {
+        let ahead = [[1.0, 0.0, 0.0, 1.0]; 3];
+        let is_led = |got: &[f32; 4], wanted: [f32; 4]| {
+            is_near([got[0], got[1], got[2]], [wanted[0], wanted[1], wanted[2]]) && got[3] == wanted[3]
+        };
+        let rig = Rig::new(arm()).unwrap();
+        let at = |clip, number| RigPose::at(Some(ClipMoment { clip, number }));
+        let bent = rig.tangents(&ahead, at(0, 60));
+        assert!(is_led(&bent[0], ahead[0]) && is_led(&bent[2], [0.0, 1.0, 0.0, 1.0]), "{bent:?}");
+        let mut desc = arm();
+        desc.joints[0].rest =
+            Local::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [-2.0, 1.0, 1.0] };
+        assert!(is_led(&desc.tangents_of_skin(&ahead)[0], [-1.0, 0.0, 0.0, -1.0]), "the skin is mirrored");
+        let rig = Rig::new(desc).unwrap();
+        let back = rig.tangents(&ahead, RigPose::REST);
+        assert!(back.iter().all(|got| is_led(got, ahead[0])), "and back at rest");
+        assert_eq!(rig.tangents(&[[0.0; 4]; 3], at(0, 30)), [[0.0; 4]; 3], "none is none");
     }
 
     #[test]

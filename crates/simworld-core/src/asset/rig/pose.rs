@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Quaternion, Translation3, UnitQuaternion, Vector3, Vector4};
 
-use super::{Channel, Clip, Curve, Local, POSE_RATE, Path, RigDesc, RigError, SkinVertex};
-use crate::asset::LARGEST_MODEL;
+use super::curve::{line, slerp};
+use super::moment::{MIX_STEPS, MOMENTS_A_POSE};
+use super::{Channel, Clip, ClipMoment, Curve, Local, POSE_RATE, Path, RigDesc, RigPose, SkinVertex};
 
 /// A model at a moment: of each of its vertices, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,9 +15,9 @@ pub struct PosedModel {
     pub normals: Vec<[f32; 3]>,
 }
 
-/// Where all vertices are.
-pub(super) fn pose(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> PosedModel {
-    let bones = carriers(desc, clip, seconds);
+/// Where all vertices are, of joints that stand like this.
+pub(super) fn pose(desc: &RigDesc, locals: &[Local]) -> PosedModel {
+    let bones = carriers(desc, locals);
     let mut posed = PosedModel {
         positions: Vec::with_capacity(desc.vertices.len()),
         normals: Vec::with_capacity(desc.vertices.len()),
@@ -29,12 +30,45 @@ pub(super) fn pose(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> PosedMo
     posed
 }
 
-/// Body from joint.
-fn joints(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> Vec<Matrix4<f64>> {
+/// Where all joints are on their parents in a clip, so long after it began; at rest without one.
+pub(super) fn locals(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> Vec<Local> {
     let mut locals: Vec<Local> = desc.joints.iter().map(|joint| joint.rest).collect();
     for Channel { joint, path, curve } in clip.iter().flat_map(|clip| &clip.channels) {
         locals[*joint as usize].put(*path, curve, seconds);
     }
+    locals
+}
+
+/// Where all joints are on their parents as they are shown.
+pub(super) fn shown(desc: &RigDesc, RigPose { from, to, share }: RigPose) -> Vec<Local> {
+    let now = at_moment(desc, to);
+    if share == MIX_STEPS {
+        now
+    } else {
+        mixed(&at_moment(desc, from), &now, u32::from(share), MIX_STEPS.into())
+    }
+}
+
+/// At a moment of a clip, between its poses from joint to joint; at rest without one.
+fn at_moment(desc: &RigDesc, moment: Option<ClipMoment>) -> Vec<Local> {
+    let clip = moment.and_then(|moment| desc.clips.get(moment.clip as usize));
+    let Some((clip, ClipMoment { number, .. })) = clip.zip(moment) else { return locals(desc, None, 0.0) };
+    let (number, beyond) = (number / MOMENTS_A_POSE, number % MOMENTS_A_POSE);
+    let sample = |number: u32| locals(desc, Some(clip), f64::from(number) / POSE_RATE);
+    if beyond == 0 {
+        return sample(number);
+    }
+    mixed(&sample(number), &sample(number + 1), beyond, MOMENTS_A_POSE)
+}
+
+/// So many of some steps on the way from one to the other.
+fn mixed(from: &[Local], to: &[Local], step: u32, steps: u32) -> Vec<Local> {
+    let share = f64::from(step) / f64::from(steps);
+    from.iter().zip(to).map(|(from, to)| from.mixed(to, share)).collect()
+}
+
+/// Body from joint.
+pub(super) fn places(desc: &RigDesc, locals: &[Local]) -> Vec<Matrix4<f64>> {
     let mut places: Vec<Matrix4<f64>> = Vec::with_capacity(locals.len());
     for (local, joint) in locals.iter().zip(&desc.joints) {
         let own = local.matrix();
@@ -66,10 +100,33 @@ impl Local {
             Path::Scale => *scale = curve.at(seconds),
         }
     }
+
+    /// Some share of the way to another place on the same parent: rotations along the shorter arc. A matrix has no way, and stays.
+    fn mixed(&self, other: &Self, share: f64) -> Self {
+        let (
+            Self::Parts { translation, rotation, scale },
+            Self::Parts { translation: place, rotation: turn, scale: size },
+        ) = (self, other)
+        else {
+            return *self;
+        };
+        let weights = [1.0 - share, share];
+        Self::Parts {
+            translation: line(*translation, *place, weights),
+            rotation: slerp(unit(*rotation), unit(*turn), share),
+            scale: line(*scale, *size, weights),
+        }
+    }
+}
+
+/// A rotation of length 1; one of no length turns nothing.
+fn unit(rotation: [f64; 4]) -> [f64; 4] {
+    let turn = Vector4::from(rotation).try_normalize(1e-9);
+    turn.map_or([0.0, 0.0, 0.0, 1.0], Into::into)
 }
 
 /// Body from skin, by bone.
-fn bones(desc: &RigDesc, joints: &[Matrix4<f64>]) -> Vec<Matrix4<f64>> {
+pub(super) fn bones(desc: &RigDesc, joints: &[Matrix4<f64>]) -> Vec<Matrix4<f64>> {
     let bone =
         |bone: &super::Bone| joints[bone.joint as usize] * Matrix4::from_column_slice(&bone.joint_from_skin);
     desc.bones.iter().map(bone).collect()
@@ -101,7 +158,7 @@ fn linear(map: &Matrix3x4<f32>) -> Matrix3<f32> {
 
 /// The normals of the skin that are these at rest: by the transposed map, which the cofactors undo but for a factor.
 pub(super) fn face(desc: &mut RigDesc, normals: &[[f32; 3]]) {
-    let bones = carriers(desc, None, 0.0);
+    let bones = carriers(desc, &locals(desc, None, 0.0));
     for (vertex, normal) in desc.vertices.iter_mut().zip(normals) {
         let linear = linear(&blended(vertex, &bones));
         let side = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
@@ -110,77 +167,34 @@ pub(super) fn face(desc: &mut RigDesc, normals: &[[f32; 3]]) {
     }
 }
 
-/// Body from skin, by bone.
-fn carriers(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> Vec<Matrix3x4<f32>> {
-    let single = |bone: &Matrix4<f64>| bone.fixed_view::<3, 4>(0, 0).map(|part| part as f32);
-    bones(desc, &joints(desc, clip, seconds)).iter().map(single).collect()
-}
-
-/// A box by its middle and half of its sides, or nothing.
-#[derive(Clone, Copy)]
-struct Around {
-    middle: Vector3<f64>,
-    half: Vector3<f64>,
-}
-
-/// The box around all poses: each vertex is between the places to which its bones carry it, and these are in the boxes around what each
-/// bone carries.
-pub(super) fn bounds(desc: &RigDesc) -> Result<[[f32; 3]; 2], RigError> {
-    let skins = around_skins(desc);
-    let mut whole = reach(desc, &skins, None, 0.0)?;
-    for clip in &desc.clips {
-        for pose in 0..clip.poses() {
-            let [low, high] = reach(desc, &skins, Some(clip), f64::from(pose) / POSE_RATE)?;
-            let [least, most] = whole;
-            whole = [
-                std::array::from_fn(|axis| least[axis].min(low[axis])),
-                std::array::from_fn(|axis| most[axis].max(high[axis])),
-            ];
-        }
-    }
-    Ok(whole)
-}
-
-/// By bone, the box around the vertices that it carries, as the skin has them.
-fn around_skins(desc: &RigDesc) -> Vec<Option<Around>> {
-    let mut boxes: Vec<Option<[[f32; 3]; 2]>> = vec![None; desc.bones.len()];
-    for vertex in &desc.vertices {
-        for (bone, _) in vertex.bones.iter().zip(vertex.weights).filter(|(_, weight)| *weight > 0.0) {
-            let [low, high] = boxes[usize::from(*bone)].get_or_insert([vertex.position; 2]);
-            *low = std::array::from_fn(|axis| low[axis].min(vertex.position[axis]));
-            *high = std::array::from_fn(|axis| high[axis].max(vertex.position[axis]));
-        }
-    }
-    let around = |[low, high]: [[f32; 3]; 2]| {
-        let [low, high] = [low, high].map(|corner| Vector3::from(corner).map(f64::from));
-        Around { middle: (low + high) * 0.5, half: (high - low) * 0.5 }
+/// The tangents of the skin that are these at rest: of length 1, with the side that they have there; zeros where nothing leads back.
+pub(super) fn of_skin(desc: &RigDesc, rest: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    let bones = carriers(desc, &locals(desc, None, 0.0));
+    let led = |(vertex, tangent): (&SkinVertex, &[f32; 4])| {
+        let map = linear(&blended(vertex, &bones));
+        map.try_inverse().map_or([0.0; 4], |back| led_by(&back, *tangent))
     };
-    boxes.into_iter().map(|one| one.map(around)).collect()
+    desc.vertices.iter().zip(rest).map(led).collect()
 }
 
-/// The box around one pose.
-fn reach(
-    desc: &RigDesc,
-    skins: &[Option<Around>],
-    clip: Option<&Clip>,
-    seconds: f64,
-) -> Result<[[f32; 3]; 2], RigError> {
-    let bones = bones(desc, &joints(desc, clip, seconds));
-    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for (bone, around) in bones.iter().zip(skins) {
-        let Some(Around { middle, half }) = around else { continue };
-        let linear = bone.fixed_view::<3, 3>(0, 0).into_owned();
-        let (at, wide) = (linear * middle + bone.fixed_view::<3, 1>(0, 3), linear.abs() * half);
-        for axis in 0..3 {
-            let ends = [at[axis] - wide[axis], at[axis] + wide[axis]].map(|part| part as f32);
-            // What is no number is far too.
-            let far = ends.into_iter().find(|end| !(-LARGEST_MODEL..=LARGEST_MODEL).contains(end));
-            if let Some(metres) = far {
-                let name = clip.map_or_else(String::new, |clip| clip.name.clone());
-                return Err(RigError::Far { clip: name, seconds, metres });
-            }
-            (low[axis], high[axis]) = (low[axis].min(ends[0]), high[axis].max(ends[1]));
-        }
-    }
-    Ok([low, high])
+/// Where tangents of the skin point, body frame, of joints that stand like this.
+pub(super) fn tangents(desc: &RigDesc, skin: &[[f32; 4]], locals: &[Local]) -> Vec<[f32; 4]> {
+    let bones = carriers(desc, locals);
+    let led =
+        |(vertex, tangent): (&SkinVertex, &[f32; 4])| led_by(&linear(&blended(vertex, &bones)), *tangent);
+    desc.vertices.iter().zip(skin).map(led).collect()
+}
+
+/// A tangent under a map, of length 1: what mirrors a surface mirrors what lies on it. Zeros where it has none.
+fn led_by(map: &Matrix3<f32>, [x, y, z, side]: [f32; 4]) -> [f32; 4] {
+    let led = (map * Vector3::new(x, y, z)).try_normalize(1e-12);
+    let sound = led.filter(|way| way.iter().all(|part| part.is_finite()));
+    let turned = if map.determinant() < 0.0 { -side } else { side };
+    sound.map_or([0.0; 4], |way| [way.x, way.y, way.z, turned])
+}
+
+/// Body from skin, by bone, of joints that stand like this.
+fn carriers(desc: &RigDesc, locals: &[Local]) -> Vec<Matrix3x4<f32>> {
+    let single = |bone: &Matrix4<f64>| bone.fixed_view::<3, 4>(0, 0).map(|part| part as f32);
+    bones(desc, &places(desc, locals)).iter().map(single).collect()
 }

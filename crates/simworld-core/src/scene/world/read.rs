@@ -13,7 +13,7 @@ use crate::id::EntityId;
 use crate::limbs::JointAngles;
 use crate::links::{KeptLinks, Links};
 use crate::net::{Aspect, RoadNetwork};
-use crate::scene::{ClassIndex, EntityRef, NameIndex, RayCast, RayHit, Scene};
+use crate::scene::{ClassIndex, EntityRef, NameIndex, RayCast, RayHit, Scene, Stride};
 use crate::traffic::RoadLeg;
 
 /// So many boxes are asked for together.
@@ -117,6 +117,10 @@ impl Scene for World {
 
     fn links(&self, id: EntityId) -> Option<Links<'_>> {
         self.links.get(&id).map(KeptLinks::view)
+    }
+
+    fn stride(&self, id: EntityId) -> Option<&Stride> {
+        self.strides.get(&id)?.as_ref()
     }
 
     fn names(&self) -> Option<&NameIndex> {

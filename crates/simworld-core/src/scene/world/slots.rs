@@ -81,6 +81,7 @@ impl World {
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).insert(id, &desc.info);
         }
+        self.keep_stride(id, desc.info.asset);
         self.infos[index] = desc.info;
         self.file(index, bounds);
         self.set_bond(index, desc.attachment);

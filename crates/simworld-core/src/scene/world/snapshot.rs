@@ -16,7 +16,7 @@ use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{Aspect, RoadNetwork};
 use crate::passage::is_leg;
-use crate::scene::EntityDesc;
+use crate::scene::{EntityDesc, Stride};
 use crate::traffic::{RoadLeg, TrafficOrder};
 
 /// A [`World`] as data: serialise it, and [restore](World::restore) goes on bit for bit.
@@ -38,6 +38,7 @@ pub struct WorldSnapshot {
     intents: Vec<(EntityId, Intent)>,
     orders: Vec<TrafficOrder>,
     events: Vec<Event>,
+    strides: Vec<(EntityId, Stride)>,
 }
 
 impl World {
@@ -60,6 +61,7 @@ impl World {
             intents: self.intents.clone(),
             orders: self.orders.clone(),
             events: self.events.clone(),
+            strides: self.saved_strides(),
         }
     }
 
@@ -130,6 +132,7 @@ impl World {
             }
         }
         world.resume_gestures();
+        world.resume_strides(&snapshot.strides);
         world.turn_page();
         world.revision = snapshot.revision;
         Ok(world)
