@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use simworld_citygen::settlement::{Settlement, SettlementError, SettlementRemark};
-use simworld_core::geometry::{Aabb, Point2};
+use simworld_core::geometry::{Aabb, Compass, Point2};
 use simworld_core::scene::{EntityKind, Place, Relation, Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::spec::{
@@ -155,12 +155,12 @@ fn districts_are_seen_in_what_houses_are_used_for() {
     asked.features.waters = vec![Water::River];
     asked.features.districts = vec![
         district(DistrictKind::OldTown, Whereabouts::Middle),
-        district(DistrictKind::Industrial, Whereabouts::East),
+        district(DistrictKind::Industrial, Whereabouts::Towards(Compass::East)),
         DistrictWish {
             by: Some("river".to_owned()),
             ..district(DistrictKind::Residential, Whereabouts::Anywhere)
         },
-        district(DistrictKind::Business, Whereabouts::North),
+        district(DistrictKind::Business, Whereabouts::Towards(Compass::North)),
     ];
     let mut sums = [[0.0; 2]; 3];
     let seeds = [3, 4, 5];
@@ -203,8 +203,8 @@ fn landmarks_stand_where_they_were_asked_for() {
     asked.features.squares = vec!["Market Square".to_owned()];
     asked.features.sites = vec![
         site("hospital", Whereabouts::Anywhere, Some("train_station")),
-        site("museum", Whereabouts::North, None),
-        site("museum", Whereabouts::South, None),
+        site("museum", Whereabouts::Towards(Compass::North), None),
+        site("museum", Whereabouts::Towards(Compass::South), None),
         site("lighthouse", Whereabouts::Anywhere, Some("harbour")),
         site("church", Whereabouts::Middle, None),
         site("Market Square", Whereabouts::Anywhere, Some("cathedral")),
