@@ -71,11 +71,7 @@ impl Applier<'_> {
         load: &Load,
         stands: &[Stand],
     ) -> Result<(), EditError> {
-        let other = |stand: &Stand| match stand {
-            Stand::Between { other, .. } => Some(*other),
-            _ => None,
-        };
-        let mut anchors = stands.iter().flat_map(|stand| stand.anchor().into_iter().chain(other(stand)));
+        let mut anchors = stands.iter().flat_map(Stand::anchors);
         let is_on_it = |anchor: &EntityId| load.things.iter().any(|(id, _)| id == anchor);
         let Some(anchor) = anchors.find(is_on_it) else { return Ok(()) };
         let told: Vec<String> = stands.iter().map(|stand| stand.told(self.scene.world())).collect();

@@ -11,6 +11,7 @@
 //! for want of it is told ([`Astray`]). What stands on a thing goes along with it, or is set down where it is gone. [`faults`] and
 //! [`Difference`] judge the result from outside.
 
+mod anchors;
 mod apply;
 mod astray;
 mod carry;
