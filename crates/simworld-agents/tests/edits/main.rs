@@ -17,6 +17,7 @@ mod edits_keep_land_use;
 #[path = "../shared/model_server/mod.rs"]
 mod model_server;
 mod models_edit_scenes;
+mod models_edit_through_llama_cpp;
 mod scenes_are_read;
 #[path = "../shared/tables.rs"]
 mod tables;
