@@ -14,6 +14,7 @@
 mod anchors;
 mod apply;
 mod astray;
+mod borne;
 mod carry;
 mod check;
 mod describe;
