@@ -22,7 +22,7 @@ use simworld_agents::library::{LOCK, Library, LibraryLimits};
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
 use simworld_agents::scenes::file::SceneFile;
 use simworld_agents::thought::ModelReader;
-use simworld_core::asset::Catalogue;
+use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::geometry::{Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
@@ -283,7 +283,7 @@ impl Desk<'_> {
             if let Some(thing) = self.world.entity(*id) {
                 let at = thing.planar();
                 let asset = thing.info.asset.and_then(|asset| self.world.assets()?.get(asset));
-                let name = thing.info.name.clone().or(asset.map(|asset| asset.name.replace('_', " ")));
+                let name = thing.info.name.clone().or(asset.map(Asset::called));
                 let name = name.unwrap_or_else(|| thing.label().to_owned());
                 println!("  {name} ({id}) at ({:.1}, {:.1})", at.x, at.y);
             }

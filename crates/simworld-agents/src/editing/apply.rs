@@ -15,7 +15,7 @@ use simworld_core::seed::Stream;
 use super::Placing;
 use super::astray::Astray;
 use super::carry::Load;
-use super::describe::{describe, listed};
+use super::describe::{describe, listed, made_as};
 use super::edit::{Edit, Make, Stand};
 use super::editable::Editable;
 use super::error::EditError;
@@ -286,7 +286,11 @@ impl Applier<'_> {
         let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted, load };
         let placing = placer.place(subject, rank, stands, stream);
         let pose = placing.pose();
-        let what = || subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " "));
+        let made = || made_as(world, subject.info);
+        let what = || {
+            let name = subject.info.name.clone().or_else(made);
+            name.unwrap_or_else(|| subject.kind.to_string().replace('_', " "))
+        };
         let place = || stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and ");
         let refused = pose.is_none().then(|| {
             let instead = relaxed(&placer, subject, stands, stream);

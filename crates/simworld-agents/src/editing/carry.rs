@@ -8,6 +8,7 @@ use simworld_core::scene::{EntityKind, Scene};
 use super::apply::Applier;
 use super::borne::{is_borne, rest_below, surface_below};
 use super::check::SUPPORT_GAP;
+use super::describe::called;
 use super::edit::Stand;
 use super::error::EditError;
 use super::place::{in_the_way, under};
@@ -178,8 +179,9 @@ impl Applier<'_> {
 
     /// What a thing is called.
     pub(super) fn label(&self, thing: EntityId) -> String {
-        let entity = self.scene.world().entity(thing);
-        entity.map_or_else(|| thing.to_string(), |entity| entity.label().replace('_', " "))
+        let world = self.scene.world();
+        let entity = world.entity(thing);
+        entity.map_or_else(|| thing.to_string(), |entity| called(world, &entity).replace('_', " "))
     }
 
     fn raise(

@@ -50,6 +50,9 @@ pub use astray::Astray;
 #[cfg(feature = "scene-files")]
 pub(crate) use check::SUPPORT_GAP;
 pub use check::{Difference, Fault, faults};
+pub(crate) use describe::called;
+#[cfg(feature = "thought")]
+pub(crate) use describe::made_as;
 pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;
