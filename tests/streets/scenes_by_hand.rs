@@ -112,8 +112,7 @@ fn the_sample_is_talked_in_looked_at_and_served_as_it_is_loaded() {
     assert_eq!(written.loaded.world.digest(), loaded.world.digest());
     assert_eq!(written.loaded.said, loaded.said);
 
-    let stage =
-        chat::Stage::in_world(written.loaded.world, &few(), Seed(1)).expect("there is a sidewalk");
+    let stage = chat::Stage::in_world(written.loaded.world, &few(), Seed(1)).expect("there is a sidewalk");
     assert_stands(stage.world(), &loaded);
     let network = stage.world().roads().expect("there are streets").clone();
     let here = stage.here();
