@@ -12,7 +12,7 @@ use simworld_core::ground::{Cover, Ground, GroundData};
 use simworld_core::hash::{StateDigest, StateHash};
 use simworld_core::id::EntityId;
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
-use simworld_core::scene::{Attachment, EntityDesc, EntityKind, Relation, Role, Scene, Shape, World};
+use simworld_core::scene::{EntityDesc, EntityKind, Relation, Scene, Shape, World};
 use simworld_core::seed::Seed;
 
 fn digest(world: &World) -> StateDigest {
@@ -22,13 +22,13 @@ fn digest(world: &World) -> StateDigest {
     world.digest()
 }
 
-fn put(world: &mut World, kind: EntityKind, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
+pub(crate) fn put(world: &mut World, kind: EntityKind, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
     let pose = pose_facing(Point3::new(at[0], at[1], at[2]), 0.0);
     let desc = EntityDesc::new(kind, pose, Shape::cuboid(size[0], size[1], size[2]));
     world.spawn(desc.named(name)).expect("a box")
 }
 
-fn prop(world: &mut World, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
+pub(crate) fn prop(world: &mut World, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
     put(world, EntityKind::Prop, name, size, at)
 }
 
@@ -36,13 +36,13 @@ fn at(world: &World, thing: EntityId) -> Point3 {
     world.entity(thing).expect("it is there").position()
 }
 
-fn assert_at(world: &World, thing: EntityId, x: f64, y: f64, z: f64) {
+pub(crate) fn assert_at(world: &World, thing: EntityId, x: f64, y: f64, z: f64) {
     let is = at(world, thing);
     assert!((is - Point3::new(x, y, z)).norm() < 1e-6, "{is} is not ({x}, {y}, {z})");
 }
 
 /// A plain on which stones lie, far from all else: they say where the ground is.
-fn plain() -> World {
+pub(crate) fn plain() -> World {
     let mut world = World::new();
     for x in [0.0, 5.0, 10.0, 15.0, 20.0] {
         prop(&mut world, "stone", [0.5, 0.5, 0.5], [x, -30.0, 0.0]);
@@ -67,7 +67,7 @@ fn laid() -> Laid {
 }
 
 /// Carries an edit out, and sees that it stands well and can be taken back and done again to the bit.
-fn done(world: &mut World, edit: Edit) -> Edited {
+pub(crate) fn done(world: &mut World, edit: Edit) -> Edited {
     let (start, before) = (world.clone(), digest(world));
     let mut editor = SceneEditor::new(Seed(3));
     let edited = editor.edit(&[edit], world).unwrap_or_else(|error| panic!("{error}"));
@@ -84,7 +84,7 @@ fn done(world: &mut World, edit: Edit) -> Edited {
 }
 
 /// Why an edit is refused; it changes nothing.
-fn refused(world: &mut World, edit: Edit) -> String {
+pub(crate) fn refused(world: &mut World, edit: Edit) -> String {
     let before = digest(world);
     let refused = SceneEditor::new(Seed(3)).edit(&[edit], world).expect_err("it is impossible");
     assert!(matches!(refused, EditError::Impossible { .. }), "{refused}");
@@ -92,11 +92,11 @@ fn refused(world: &mut World, edit: Edit) -> String {
     refused.to_string()
 }
 
-fn moved_to(thing: EntityId, x: f64, y: f64) -> Edit {
+pub(crate) fn moved_to(thing: EntityId, x: f64, y: f64) -> Edit {
     Edit::Move { things: vec![thing], stands: vec![Stand::At { point: Point2::new(x, y) }] }
 }
 
-fn scaled(thing: EntityId, factor: f64) -> Edit {
+pub(crate) fn scaled(thing: EntityId, factor: f64) -> Edit {
     Edit::Scale { things: vec![thing], factor }
 }
 
@@ -104,7 +104,7 @@ fn turned(thing: EntityId, angle: f64) -> Edit {
     Edit::Rotate { things: vec![thing], angle }
 }
 
-fn removed(things: &[EntityId]) -> Edit {
+pub(crate) fn removed(things: &[EntityId]) -> Edit {
     Edit::Remove { things: things.to_vec() }
 }
 
@@ -209,101 +209,6 @@ fn a_board_on_two_tables_stays_up_on_that_which_is_below_its_middle() {
     let (mut world, one, other, plank) = board();
     done(&mut world, removed(&[one, other]));
     assert_at(&world, plank, 0.8, 0.0, 0.0);
-}
-
-/// A board of 4 m on three tables whose middles are there, its own middle over the origin.
-fn on_three(places: [f64; 3]) -> (World, [EntityId; 3], EntityId) {
-    let mut world = plain();
-    let tables = places.map(|x| put(&mut world, EntityKind::Table, "table", [0.6, 1.0, 0.8], [x, 0.0, 0.0]));
-    let board = prop(&mut world, "board", [4.0, 0.3, 0.05], [0.0, 0.0, 0.8]);
-    (world, tables, board)
-}
-
-#[test]
-fn a_board_stays_up_while_its_middle_is_between_what_it_lies_on() {
-    // None is below its middle: that beside it may go, and the last on its side may not.
-    let (mut world, [west, east, far], board) = on_three([-1.5, 0.8, 1.6]);
-    for edit in [moved_to(east, 10.0, 4.0), removed(&[east])] {
-        assert_eq!(done(&mut world, edit).answer, None);
-        assert_at(&world, board, 0.0, 0.0, 0.8);
-    }
-    for edit in [moved_to(far, 12.0, 4.0), removed(&[far]), scaled(far, 0.5), moved_to(west, 14.0, 4.0)] {
-        let why = refused(&mut world, edit);
-        assert!(why.contains("board would slip off table"), "{why}");
-    }
-    // Where both are put elsewhere it falls past them.
-    let point = Point2::new(12.0, 4.0);
-    let both = Edit::Move { things: vec![west, far], stands: vec![Stand::Around { point }] };
-    let told = done(&mut world, both).answer.expect("it says so");
-    assert_at(&world, board, 0.0, 0.0, 0.0);
-    assert!(told.contains("was set down on the ground"), "{told}");
-
-    // Of one that sinks below its middle it stays on the two beside it; it goes along with that all the same.
-    let (mut world, [_, middle, _], board) = on_three([-1.5, 0.0, 1.5]);
-    assert_eq!(done(&mut world, scaled(middle, 0.5)).answer, None);
-    assert_at(&world, board, 0.0, 0.0, 0.8);
-    let (mut world, [_, middle, _], board) = on_three([-1.5, 0.0, 1.5]);
-    assert_eq!(done(&mut world, removed(&[middle])).answer, None);
-    assert_at(&world, board, 0.0, 0.0, 0.8);
-    let (mut world, [_, middle, _], board) = on_three([-1.5, 0.0, 1.5]);
-    done(&mut world, moved_to(middle, 10.0, 4.0));
-    assert_at(&world, board, 10.0, 4.0, 0.8);
-}
-
-/// Hangs a thing on somebody, so far before and above them.
-fn held(world: &mut World, by: EntityId, name: &str, size: [f64; 3], (ahead, up): (f64, f64)) -> EntityId {
-    let carrier = *world.entity(by).expect("somebody is there").pose;
-    let parent_from_body = pose_facing(Point3::new(ahead, 0.0, up), 0.0);
-    let shape = Shape::cuboid(size[0], size[1], size[2]);
-    let mut desc = EntityDesc::new(EntityKind::Prop, carrier * parent_from_body, shape).named(name);
-    desc.attachment = Some(Attachment { parent: by, role: Role::Held, parent_from_body });
-    world.spawn(desc).expect("a box in a hand")
-}
-
-/// Somebody with a tray in one hand, on which a cup stands, and a lantern in the other, which is over the tray.
-fn waiter(world: &mut World, z: f64) -> [EntityId; 4] {
-    let pose = pose_facing(Point3::new(0.0, 0.0, z), 0.0);
-    let person = EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.25, height: 1.75 });
-    let person = world.spawn(person.named("Ann")).expect("a person");
-    let lantern = held(world, person, "lantern", [0.1, 0.1, 0.2], (0.5, 1.5));
-    let tray = held(world, person, "tray", [0.4, 0.4, 0.1], (0.5, 1.0));
-    let cup = prop(world, "cup", [0.1, 0.1, 0.1], [0.6, 0.1, z + 1.1]);
-    [person, lantern, tray, cup]
-}
-
-#[test]
-fn what_somebody_held_falls_when_they_are_taken_away() {
-    let mut world = plain();
-    let [person, lantern, tray, cup] = waiter(&mut world, 0.0);
-    let edited = done(&mut world, removed(&[person]));
-    assert_at(&world, tray, 0.5, 0.0, 0.0);
-    assert_at(&world, cup, 0.6, 0.1, 0.1);
-    assert_at(&world, lantern, 0.5, 0.0, 0.1);
-    assert!(
-        [lantern, tray].iter().all(|thing| world.entity(*thing).is_some_and(|it| it.attachment.is_none()))
-    );
-    let told = edited.answer.expect("it says so");
-    assert!(told.contains("tray") && told.contains("was set down on the ground"), "{told}");
-
-    // A table that stands below catches it, and what goes too does not fall.
-    let mut world = plain();
-    let [person, lantern, tray, cup] = waiter(&mut world, 0.0);
-    put(&mut world, EntityKind::Table, "table", [1.0, 1.0, 0.8], [0.9, 0.0, 0.0]);
-    let told = done(&mut world, removed(&[person, lantern])).answer.expect("it says so");
-    assert!(world.entity(lantern).is_none());
-    assert_at(&world, tray, 0.5, 0.0, 0.8);
-    assert_at(&world, cup, 0.6, 0.1, 0.9);
-    assert!(told.contains("was set down on table"), "{told}");
-}
-
-#[test]
-fn what_falls_from_somebody_high_up_falls_to_the_ground() {
-    let mut world = plain();
-    put(&mut world, EntityKind::Ground, "meadow", [100.0, 100.0, 1.0], [0.0, 0.0, -1.0]);
-    let [person, lantern, tray, cup] = waiter(&mut world, 20.0);
-    done(&mut world, removed(&[person, lantern]));
-    assert_at(&world, tray, 0.5, 0.0, 0.0);
-    assert_at(&world, cup, 0.6, 0.1, 0.1);
 }
 
 #[test]
