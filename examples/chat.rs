@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release --example chat
 //! cargo run --release --example chat -- --say "get into the red car, drive to the hospital and get out"
+//! cargo run --release --example chat -- --scene examples/assets/scenes/harbour.scene.toml --say "go to the fountain"
 //! cargo run --release --example chat -- --city out/city/city.simcity --model http://127.0.0.1:8080/v1
 //! ```
 
@@ -16,6 +17,7 @@ use simworld_agents::language::GrammarPlanner;
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
 use simworld_agents::thought::ModelPlanner;
 use simworld_citygen::City;
+use simworld_core::clock::Clock;
 use simworld_core::event::EventKind;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
@@ -23,6 +25,7 @@ use simworld_core::seam::{PlanStep, Planner, Progress};
 use simworld_core::seed::Seed;
 use simworld_examples::chat::{Pictures, Stage, Tally, step_in_words, steps_in_words};
 use simworld_examples::city::{Source, make};
+use simworld_examples::written::Written;
 use simworld_examples::{Outcome, exit_code};
 use simworld_traffic::TrafficConfig;
 
@@ -36,7 +39,10 @@ struct Arguments {
     /// A saved city; without one a small one is grown.
     #[arg(long, value_name = "FILE.simcity")]
     city: Option<PathBuf>,
-    /// Seed of the city and of its traffic.
+    /// A scene that is written by hand, in place of a city, with a street that has a sidewalk; docs/scenes.md has every key.
+    #[arg(long, value_name = "FILE.scene.toml", conflicts_with = "city")]
+    scene: Option<PathBuf>,
+    /// Seed of the city and of its traffic; a scene that is written by hand has its own for what stands in it.
     #[arg(long, default_value_t = 7)]
     seed: u64,
     /// A sentence to carry out instead of reading from the terminal; may be given several times.
@@ -73,14 +79,12 @@ fn main() -> ExitCode {
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {
-    let source = Source::saved_or_small(arguments.city.as_ref());
-    let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
     let traffic = TrafficConfig {
         vehicles: arguments.vehicles,
         pedestrians: arguments.pedestrians,
         ..TrafficConfig::default()
     };
-    let stage = Stage::new(&city, &traffic, Seed(arguments.seed))?;
+    let (city, stage) = stage(arguments, &traffic)?;
     simworld_examples::folder::make_folder(&arguments.out)?;
     let (pictures, missing) = Pictures::new(&arguments.out);
     if let Some(reason) = missing {
@@ -109,9 +113,23 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     Ok(())
 }
 
+/// The stage in a saved city, or a small one; or in a scene that is written by hand, which is no city.
+fn stage(arguments: &Arguments, traffic: &TrafficConfig) -> Outcome<(Option<City>, Stage)> {
+    let seed = Seed(arguments.seed);
+    if let Some(path) = &arguments.scene {
+        let written = Written::read(path, Clock::default())?;
+        written.tell();
+        return Ok((None, Stage::in_world(written.loaded.world, traffic, seed)?));
+    }
+    let source = Source::saved_or_small(arguments.city.as_ref());
+    let city = make(&source, seed.stream("city").seed())?.city;
+    let stage = Stage::new(&city, traffic, seed)?;
+    Ok((Some(city), stage))
+}
+
 struct Chat<'a> {
     arguments: &'a Arguments,
-    city: City,
+    city: Option<City>,
     stage: Stage,
     pictures: Pictures,
     planner: Box<dyn Planner>,
@@ -233,7 +251,7 @@ impl Chat<'_> {
     }
 
     fn show(&mut self, title: &str) -> Outcome<()> {
-        self.pictures.map(&self.city, &self.stage, title)?;
+        self.pictures.map(self.city.as_ref(), &self.stage, title)?;
         Ok(self.pictures.eye(&self.stage)?)
     }
 

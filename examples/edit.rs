@@ -22,14 +22,15 @@ use simworld_agents::library::{LOCK, Library, LibraryLimits};
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
 use simworld_agents::scenes::file::SceneFile;
 use simworld_agents::thought::ModelReader;
-use simworld_core::asset::Catalogue;
+use simworld_core::asset::{Asset, Catalogue};
+use simworld_core::clock::Clock;
 use simworld_core::geometry::{Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Source, make};
 use simworld_examples::edit::{Plan, View, contact_sheet, made_sheet};
-use simworld_examples::places::Generated;
+use simworld_examples::written::Written;
 use simworld_examples::{Outcome, exit_code};
 
 /// Type how the scene is to change: "put two benches in front of the school", "paint them blue", "make it a foggy evening".
@@ -179,20 +180,10 @@ fn grown(arguments: &Arguments, catalogue: Catalogue) -> Outcome<(World, SceneEd
 fn written(arguments: &Arguments, path: &Path, catalogue: Catalogue) -> Outcome<(World, SceneEditor)> {
     let scene = SceneFile::read(path)?;
     let editor = editor(arguments, scene.seed, catalogue)?;
-    let loaded = scene.load_with(editor, &mut Generated)?;
-    if !loaded.problems.is_empty() {
-        eprintln!("{}", loaded.problems);
-    }
-    let title = scene.title.as_deref().unwrap_or("the scene");
-    let things = loaded.things.iter().map(Vec::len).sum::<usize>();
-    println!("{title}: {things} things, {} sentences", loaded.said.len());
-    for edited in &loaded.said {
-        if let Some(answer) = &edited.answer {
-            println!("  {answer}");
-        }
-    }
+    let written = Written::with(scene, Clock::default(), editor)?;
+    written.tell();
     // What the user says is looked at from where the user says, wherever the file looked from last.
-    Ok((loaded.world, loaded.editor.looking_from(arguments.from)))
+    Ok((written.loaded.world, written.loaded.editor.looking_from(arguments.from)))
 }
 
 /// The editor, with who reads and who makes.
@@ -283,7 +274,7 @@ impl Desk<'_> {
             if let Some(thing) = self.world.entity(*id) {
                 let at = thing.planar();
                 let asset = thing.info.asset.and_then(|asset| self.world.assets()?.get(asset));
-                let name = thing.info.name.clone().or(asset.map(|asset| asset.name.replace('_', " ")));
+                let name = thing.info.name.clone().or(asset.map(Asset::called));
                 let name = name.unwrap_or_else(|| thing.label().to_owned());
                 println!("  {name} ({id}) at ({:.1}, {:.1})", at.x, at.y);
             }

@@ -61,8 +61,14 @@ impl Eye for TimedEye {
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {
-    let settings =
-        CitySettings { seed: 7, roads: 40, vehicles: 40, pedestrians: 80, step_microseconds: 50_000 };
+    let settings = CitySettings {
+        seed: 7,
+        roads: 40,
+        scene: None,
+        vehicles: 40,
+        pedestrians: 80,
+        step_microseconds: 50_000,
+    };
     let limits = Limits { requests_per_second: 1e7, ..Limits::default() };
     let server = Server::bind(ServerConfig { limits, ..ServerConfig::on_free_ports() })?;
     let addresses =

@@ -2,6 +2,7 @@
 //!
 //! ```sh
 //! cargo run --release --example serve
+//! cargo run --release --example serve -- --scene examples/assets/scenes/harbour.scene.toml
 //! python -c "import unrealcv; c = unrealcv.Client(('127.0.0.1', 9000)); c.connect(); print(c.request('vget /cameras'))"
 //! ```
 
@@ -12,11 +13,15 @@ use std::time::Duration;
 
 use clap::Parser;
 use simworld_agents::remote::{CameraPlace, Mount, Pace, Server, ServerConfig, SimulationStage, Token};
+use simworld_core::clock::Clock;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::net::polyline;
 use simworld_core::scene::Scene;
 use simworld_core::simulation::Simulation;
-use simworld_examples::served::{CitySettings, RenderEye, ServedError, Session, replay, simulation};
+use simworld_examples::served::{
+    CitySettings, RenderEye, ServedError, Session, replay, simulation, simulation_of,
+};
+use simworld_examples::written::Written;
 use simworld_examples::{Outcome, exit_code};
 
 /// The variable of the environment that holds the token.
@@ -32,7 +37,10 @@ struct Arguments {
     /// Where clients of the typed protocol are listened for.
     #[arg(long, default_value = "127.0.0.1:9001")]
     typed: SocketAddr,
-    /// Seed of the city.
+    /// A scene that is written by hand, in place of a city; docs/scenes.md has every key.
+    #[arg(long, value_name = "FILE.scene.toml", conflicts_with_all = ["roads", "replay"])]
+    scene: Option<PathBuf>,
+    /// Seed of the city and its traffic; a scene that is written by hand has its own for what stands in it.
     #[arg(long, default_value_t = 7)]
     seed: u64,
     /// Roads of the city.
@@ -75,14 +83,24 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     if !(1e-4..=60.0).contains(&arguments.step) {
         return Err(format!("--step {}: give 0.0001 to 60 s", arguments.step).into());
     }
-    let settings = CitySettings {
+    let mut settings = CitySettings {
         seed: arguments.seed,
         roads: arguments.roads,
+        scene: None,
         vehicles: arguments.vehicles,
         pedestrians: arguments.pedestrians,
         step_microseconds: (arguments.step * 1e6).round() as u64,
     };
-    let city = simulation(&settings)?;
+    let city = match &arguments.scene {
+        Some(path) => {
+            let written = Written::read(path, Clock::new(settings.step_microseconds)?)?;
+            written.tell();
+            // A recorded session holds the scene itself, so that it is run again without the file.
+            settings.scene = Some(written.scene.to_toml()?);
+            simulation_of(written.loaded.world, &settings)?
+        }
+        None => simulation(&settings)?,
+    };
     let server = Server::bind(ServerConfig {
         unrealcv: Some(arguments.unrealcv),
         typed: Some(arguments.typed),

@@ -5,6 +5,7 @@
 //! cargo run --release --example view --features window -- --window
 //! cargo run --release --example view --features mp4 -- --mp4 out/street.mp4
 //! cargo run --release --example view -- --frames 100 --gif out/street.gif --follow car --show paths,ids
+//! cargo run --release --example view -- --scene examples/assets/scenes/harbour.scene.toml --vehicles 6 --pedestrians 10
 //! cargo run --release --example view -- --replay out/delivery-1 --frames 60 --png out/run
 //! ```
 
@@ -34,6 +35,9 @@ struct Arguments {
     /// A saved city, as `--example city` writes it; otherwise one is grown.
     #[arg(long, value_name = "FILE.simcity")]
     city: Option<PathBuf>,
+    /// A scene that is written by hand, in place of a city; docs/scenes.md has every key.
+    #[arg(long, value_name = "FILE.scene.toml", conflicts_with_all = ["city", "replay"])]
+    scene: Option<PathBuf>,
     /// Plays the run again that `--example delivery` recorded in this folder; its first seed.
     #[arg(long, value_name = "DIR", conflicts_with = "city")]
     replay: Option<PathBuf>,
@@ -99,6 +103,8 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     check(arguments)?;
     let mut stage = if let Some(folder) = &arguments.replay {
         Stage::of_recording(folder)?
+    } else if let Some(path) = &arguments.scene {
+        Stage::of_scene(path, arguments.vehicles, arguments.pedestrians, Seed(arguments.seed))?
     } else {
         let city = make(&Source::saved_or_small(arguments.city.as_ref()), Seed(arguments.seed))?.city;
         Stage::of_city(&city, arguments.vehicles, arguments.pedestrians, Seed(arguments.seed))?

@@ -27,6 +27,7 @@ pub mod timing;
 pub mod traffic;
 pub mod view;
 pub mod wayfinding;
+pub mod written;
 
 pub use ending::{Outcome, exit_code};
 

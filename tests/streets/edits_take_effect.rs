@@ -87,7 +87,7 @@ fn a_cone_on_a_lane_is_stopped_for_and_driven_past_when_it_is_put_aside() {
 
 #[test]
 fn what_a_street_is_built_with_is_in_the_way_on_a_lane_as_well() {
-    for thing in ["street lamp", "tree", "hydrant"] {
+    for thing in ["street lamp", "tree", "hydrant", "traffic light"] {
         let (mut simulation, place) = streets();
         let made = say(&mut simulation, &format!("put a {thing} at ({:.1}, {:.1})", place.x, place.y))[0];
         let size = simulation.world().entity(made).expect("it was put there").info.shape.size();
@@ -139,6 +139,8 @@ fn after_a_minute(seed: Seed, furnished: bool) -> Vec<Point3> {
                 | EntityKind::Sign
                 | EntityKind::Hydrant
                 | EntityKind::BusStop
+                | EntityKind::Building
+                | EntityKind::TrafficSignal
         )
     };
     let put: Vec<EntityId> = world.iter().filter(|one| is_put(one.kind)).map(|one| one.id).collect();
@@ -159,7 +161,7 @@ fn after_a_minute(seed: Seed, furnished: bool) -> Vec<Point3> {
 }
 
 #[test]
-fn the_furniture_of_a_city_is_in_nobodys_way() {
+fn the_furniture_and_the_houses_of_a_city_are_in_nobodys_way() {
     for seed in [Seed(1), Seed(2), Seed(3)] {
         assert_eq!(after_a_minute(seed, true), after_a_minute(seed, false), "{seed:?}");
     }

@@ -1,16 +1,23 @@
 //! Scenes that are written by hand, with the city generator behind them: the sample has what it says, and the page about them tells
 //! what is so.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use simworld_agents::scenes::file::{Colour, Loaded, SceneFile, SceneFileError};
 use simworld_core::asset::Catalogue;
+use simworld_core::clock::Clock;
 use simworld_core::geometry::{Point2, Point3, yaw_of};
 use simworld_core::hash::StateHash;
-use simworld_core::net::RoadClass;
-use simworld_core::scene::{EntityKind, EntityRef, Scene};
+use simworld_core::id::EntityId;
+use simworld_core::net::{RoadClass, Sidewalk, polyline};
+use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
+use simworld_core::seed::Seed;
 use simworld_core::value::Value;
 use simworld_examples::places::Generated;
+use simworld_examples::served::{CitySettings, Session, replay, simulation};
+use simworld_examples::written::Written;
+use simworld_examples::{chat, view};
+use simworld_traffic::TrafficConfig;
 
 const PAGE: &str = include_str!("../../docs/scenes.md");
 
@@ -18,9 +25,12 @@ fn load(scene: &SceneFile) -> Result<Loaded, SceneFileError> {
     scene.load(&Catalogue::library(), &mut Generated)
 }
 
+fn sample_path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/assets/scenes/harbour.scene.toml")
+}
+
 fn sample() -> SceneFile {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/assets/scenes/harbour.scene.toml");
-    SceneFile::read(&path).unwrap_or_else(|error| panic!("{error}"))
+    SceneFile::read(&sample_path()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The things of the rows of an asset.
@@ -78,6 +88,87 @@ fn the_sample_is_the_same_world_each_time_also_when_it_was_written_again() {
     assert_eq!(again, scene);
     let digests = [&scene, &scene, &again].map(|scene| load(scene).expect("it is sound").world.digest());
     assert!(digests.iter().all(|digest| *digest == digests[0]));
+}
+
+/// Who drives and walks in the sample beside what is written there.
+fn few() -> TrafficConfig {
+    TrafficConfig { vehicles: 4, pedestrians: 4, ..TrafficConfig::default() }
+}
+
+/// Everything that was written stands in a world where it was put, but for what moves.
+fn assert_stands(world: &World, loaded: &Loaded) {
+    let same = |id: &EntityId| {
+        let (was, is) = (loaded.world.entity(*id).expect("it was put there"), world.entity(*id));
+        is.is_some_and(|is| is.kind == was.kind && (was.kind.is_mobile() || is.pose == was.pose))
+    };
+    let gone: Vec<&EntityId> = loaded.things.iter().flatten().filter(|id| !same(id)).collect();
+    assert!(gone.is_empty() && loaded.things.len() > 5, "{gone:?}");
+}
+
+#[test]
+fn the_sample_is_talked_in_looked_at_and_served_as_it_is_loaded() {
+    let loaded = load(&sample()).expect("it is sound");
+    let written = Written::read(&sample_path(), Clock::default()).expect("it is sound");
+    assert_eq!(written.loaded.world.digest(), loaded.world.digest());
+    assert_eq!(written.loaded.said, loaded.said);
+
+    let stage = chat::Stage::in_world(written.loaded.world, &few(), Seed(1)).expect("there is a sidewalk");
+    assert_stands(stage.world(), &loaded);
+    let network = stage.world().roads().expect("there are streets").clone();
+    let here = stage.here();
+    let on_it =
+        |walk: &Sidewalk| polyline::closest(&walk.path, &here).is_some_and(|near| near.distance < 1.5);
+    assert!(network.sidewalks.iter().any(on_it), "{here} is on no sidewalk");
+
+    let stage = view::Stage::of_scene(&sample_path(), 4, 4, Seed(1)).expect("it is sound");
+    assert_stands(stage.world(), &loaded);
+    assert!(stage.world().len() > loaded.world.len(), "there is traffic on its streets");
+
+    let scene = Some(sample().to_toml().expect("it can be written"));
+    let settings =
+        CitySettings { seed: 1, roads: 40, scene, vehicles: 4, pedestrians: 4, step_microseconds: 50_000 };
+    let mut served = simulation(&settings).expect("it is sound");
+    assert_stands(served.world(), &loaded);
+    served.set_trail_interval(1);
+    for _ in 0..20 {
+        served.step().expect("nothing fails");
+    }
+    let recording = served.recording().clone();
+    assert_eq!(replay(&Session { settings, recording }).expect("it goes the same way"), 20);
+}
+
+#[test]
+fn a_scene_without_streets_is_looked_at_and_served_and_nobody_can_stand_on_its_sidewalks() {
+    let text = "version = 1\n[[thing]]\nasset = \"table\"\nname = \"desk\"\nat = [4, -2]";
+    let written = Written::of(SceneFile::parse(text).unwrap(), Clock::default()).expect("it is sound");
+    let refused = chat::Stage::in_world(written.loaded.world, &few(), Seed(1)).map(|_| ()).unwrap_err();
+    assert!(matches!(refused, chat::StageError::NoPlace), "{refused}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("desk.scene.toml");
+    std::fs::write(&path, text).unwrap();
+    let mut stage = view::Stage::of_scene(&path, 4, 4, Seed(1)).expect("it is sound");
+    let before = stage.world().len();
+    stage.step().expect("nobody moves");
+    assert_eq!((before, stage.world().len()), (2, 2), "the ground and the table");
+    let scene = Some(text.to_owned());
+    let settings =
+        CitySettings { seed: 1, roads: 40, scene, vehicles: 4, pedestrians: 4, step_microseconds: 50_000 };
+    simulation(&settings).expect("it is sound").step().expect("nobody moves");
+}
+
+#[test]
+fn a_scene_that_cannot_be_is_refused_alike_by_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wrong.scene.toml");
+    std::fs::write(&path, "version = 1\n\n[[thing]]\nasset = \"bnch\"\nat = [0, 0]").unwrap();
+    let told = load(&SceneFile::read(&path).unwrap()).map(|_| ()).unwrap_err().to_string();
+    assert!(told.contains("wrong.scene.toml:3") && told.contains("bench"), "{told}");
+    let written = Written::read(&path, Clock::default()).map(|_| ()).unwrap_err().to_string();
+    let viewed = view::Stage::of_scene(&path, 1, 1, Seed(1)).map(|_| ()).unwrap_err().to_string();
+    assert_eq!((written.as_str(), viewed.as_str()), (told.as_str(), told.as_str()));
+    let missing = folder.path().join("none.scene.toml");
+    let written = Written::read(&missing, Clock::default()).map(|_| ()).unwrap_err().to_string();
+    assert!(written.contains("none.scene.toml"), "{written}");
 }
 
 /// The blocks of TOML of the page.

@@ -4,11 +4,13 @@
 //! radians, seconds, `f64`. A pose named `world_from_body` maps points of the body frame into the world:
 //! `world_from_body * point_in_body`.
 
+mod compass;
 mod rectangle;
 
 use nalgebra::{Isometry3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
+pub use compass::Compass;
 pub use rectangle::Rectangle;
 
 use crate::ops;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use simworld_core::environment::Weather;
-use simworld_core::geometry::{Point3, Twist, Vector2, Vector3, direction, pose_facing, yaw_of};
+use simworld_core::geometry::{Point3, Pose, Twist, Vector2, Vector3, direction, pose_facing, yaw_of};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape, World};
@@ -42,7 +42,8 @@ const PAINTS: [[f32; 3]; 7] = [
 /// who were to drive there take another way.
 ///
 /// People and vehicles that belong to others are seen: drivers stop for them, but not for parked
-/// vehicles (attribute `parked`), which keep within their lanes. They stop for what is put on a lane, be it a cone or a tree.
+/// vehicles (attribute `parked`), which keep within their lanes. They stop for what is put on a lane, be it a cone, a tree or a house;
+/// a house or a traffic light over a lane that the world had when its traffic was made belongs there, and is driven through.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -72,6 +73,7 @@ pub struct TrafficDynamics {
     others: Others,
     /// The closures of the streets that the world has closed, by number.
     shut: BTreeMap<RoadLeg, u32>,
+    first: First,
     foreign: Vec<Foreign>,
     /// The weather that was minded last.
     weather: Option<Weather>,
@@ -86,6 +88,7 @@ impl TrafficDynamics {
         let network = Arc::clone(world.roads().ok_or(TrafficError::NoRoads)?);
         let traffic = Traffic::new(network, config, seed)?;
         let mut vehicles = vec![NOBODY; traffic.placed().vehicles as usize];
+        let first = at_first(world, &traffic);
         let stream = seed.stream("traffic/paint");
         let mut paint = stream.rng();
         let mut bodies: Vec<_> = traffic.vehicles().collect();
@@ -106,6 +109,7 @@ impl TrafficDynamics {
             handed: BTreeMap::new(),
             others: Others::default(),
             shut: BTreeMap::new(),
+            first,
             foreign: Vec::new(),
             weather: None,
         })
@@ -150,10 +154,13 @@ impl TrafficDynamics {
 
     /// Finds out who came, and takes out of the traffic whose entities somebody took out of the world.
     fn look_around(&mut self, world: &World) {
-        let Self { others, vehicles, pedestrians, traffic, .. } = self;
+        let Self { others, vehicles, pedestrians, traffic, first, .. } = self;
         let in_the_way = |entity: &EntityRef<'_>| match standing(entity) {
             Some(Standing::Put) => traffic.is_in_the_way(&seen(entity)),
             Some(Standing::Built) => traffic.is_on_a_track(&seen(entity)),
+            Some(Standing::Founded) => {
+                first.get(&entity.id) != Some(&stance(entity)) && traffic.is_on_a_track(&seen(entity))
+            }
             None => false,
         };
         let vehicles_own = (0..).map(Who::Vehicle).zip(vehicles.iter());
@@ -244,10 +251,21 @@ impl TrafficDynamics {
 /// Whose number has no entity: no world has so many that one has this id.
 const NOBODY: EntityId = EntityId::new(u32::MAX, u32::MAX);
 
-/// What is saved: the configuration, the state, entities of vehicles and walkers by number, whom somebody else moves, and the
-/// closures of closed streets.
-type Saved =
-    (TrafficConfig, State, Vec<EntityId>, Vec<EntityId>, BTreeMap<EntityId, Who>, BTreeMap<RoadLeg, u32>);
+/// Houses and traffic lights that stood over lanes when the traffic was made, and how: real places have houses over streets. Who moves
+/// one puts it where it stands then.
+type First = BTreeMap<EntityId, (Pose, Shape)>;
+
+/// What is saved: the configuration, the state, entities of vehicles and walkers by number, whom somebody else moves, the closures of
+/// closed streets, and what stood over lanes at first.
+type Saved = (
+    TrafficConfig,
+    State,
+    Vec<EntityId>,
+    Vec<EntityId>,
+    BTreeMap<EntityId, Who>,
+    BTreeMap<RoadLeg, u32>,
+    First,
+);
 
 fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.shape);
@@ -284,10 +302,11 @@ enum Standing {
     Put,
     /// What a street is built with beside its lanes, and in the way only where it stands on one.
     Built,
+    /// The same of what may stand over a lane from the beginning: streets lead through houses, and lights stand where streets meet.
+    Founded,
 }
 
-/// What of the solid things that stand somewhere an entity is. Houses and traffic lights are none: streets lead through the ones, and the
-/// others stand where streets meet.
+/// What of the solid things that stand somewhere an entity is.
 fn standing(entity: &EntityRef<'_>) -> Option<Standing> {
     let standing = match entity.kind {
         EntityKind::Bench
@@ -302,9 +321,23 @@ fn standing(entity: &EntityRef<'_>) -> Option<Standing> {
         | EntityKind::Sign
         | EntityKind::Hydrant
         | EntityKind::BusStop => Standing::Built,
+        EntityKind::Building | EntityKind::TrafficSignal => Standing::Founded,
         _ => return None,
     };
     (entity.is_solid() && entity.attachment.is_none()).then_some(standing)
+}
+
+/// How an entity stands, and how large it is.
+fn stance(entity: &EntityRef<'_>) -> (Pose, Shape) {
+    (*entity.pose, entity.info.shape)
+}
+
+/// What stands over lanes before there is traffic on them.
+fn at_first(world: &World, traffic: &Traffic) -> First {
+    let is_over_a_lane = |entity: &EntityRef<'_>| {
+        matches!(standing(entity), Some(Standing::Founded)) && traffic.is_on_a_track(&seen(entity))
+    };
+    world.iter().filter(is_over_a_lane).map(|entity| (entity.id, stance(&entity))).collect()
 }
 
 /// Whether an entity is a parked vehicle: it keeps within its parking lane, where nobody drives.
@@ -349,6 +382,7 @@ impl Dynamics for TrafficDynamics {
             &self.pedestrians,
             &self.handed,
             &self.shut,
+            &self.first,
         );
         let mut bytes =
             postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
@@ -362,7 +396,7 @@ impl Dynamics for TrafficDynamics {
         if checksum(bytes) != *sum {
             return Err(refused("its checksum does not fit its bytes, so it is damaged"));
         }
-        let (config, state, vehicles, pedestrians, handed, shut): Saved =
+        let (config, state, vehicles, pedestrians, handed, shut, first): Saved =
             postcard::from_bytes(bytes).map_err(|error| refused(&error.to_string()))?;
         let named = config == *self.traffic.config()
             && vehicles.len() >= state.numbers()
@@ -370,7 +404,8 @@ impl Dynamics for TrafficDynamics {
         if !named || !self.traffic.set_state(state) {
             return Err(refused("it belongs to another network or configuration"));
         }
-        (self.vehicles, self.pedestrians, self.handed, self.shut) = (vehicles, pedestrians, handed, shut);
+        (self.vehicles, self.pedestrians, self.handed) = (vehicles, pedestrians, handed);
+        (self.shut, self.first) = (shut, first);
         self.others.forget();
         self.weather = None;
         Ok(())

@@ -7,8 +7,9 @@ use simworld_citygen::City;
 use simworld_core::command::Command;
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point2, Point3, direction, pose_facing, yaw_of};
+use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
-use simworld_core::net::{NetworkError, WaypointConfig, WaypointGraph, polyline};
+use simworld_core::net::{NetworkError, RoadNetwork, WaypointConfig, WaypointGraph, polyline};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World, WorldError};
 use simworld_core::seam::{Executor, ExecutorError, Plan, PlanStep, Progress};
 use simworld_core::seed::Seed;
@@ -21,8 +22,10 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StageError {
-    /// A city without a sidewalk to stand on.
-    #[error("the city has no street with a sidewalk: give it more roads")]
+    /// Streets without a sidewalk to stand on.
+    #[error(
+        "there is no street with a sidewalk to stand on: give a city more roads, and a scene such a street"
+    )]
     NoPlace,
     /// The world refused an entity.
     #[error(transparent)]
@@ -62,8 +65,17 @@ impl Stage {
     pub fn new(city: &City, traffic: &TrafficConfig, seed: Seed) -> Result<Self, StageError> {
         let mut world = World::new();
         city.populate(&mut world)?;
+        Self::in_world(world, traffic, seed)
+    }
+
+    /// The same in a world that is there already, such as that of a scene that is written by hand.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn in_world(mut world: World, traffic: &TrafficConfig, seed: Seed) -> Result<Self, StageError> {
+        let network = Arc::clone(world.roads().ok_or(StageError::NoPlace)?);
         let traffic = TrafficDynamics::new(&mut world, traffic, seed)?;
-        let cast = Cast::on(city, &mut world)?;
+        let cast = Cast::on(&network, &mut world)?;
         let mut physics = PhysicsDynamics::new(PhysicsConfig::default())?;
         for person in [cast.me, cast.other] {
             physics.add_humanoid(&world, person, HumanoidConfig::default())?;
@@ -73,7 +85,7 @@ impl Stage {
         simulation.add_dynamics("traffic", Box::new(traffic));
         simulation.add_dynamics("physics", Box::new(physics));
         simulation.set_trail_interval(0);
-        let ways = Arc::new(WaypointGraph::walkable(&city.network, &WaypointConfig::default())?);
+        let ways = Arc::new(WaypointGraph::walkable(&network, &WaypointConfig::default())?);
         Ok(Self { simulation, executor: RuleExecutor::new(ways), me: cast.me, trail: Vec::new() })
     }
 
@@ -151,14 +163,15 @@ struct Cast {
 }
 
 impl Cast {
-    fn on(city: &City, world: &mut World) -> Result<Self, StageError> {
+    fn on(network: &RoadNetwork, world: &mut World) -> Result<Self, StageError> {
         let length = |path: &[Point2]| polyline::length(path);
-        let walks = city.network.sidewalks.iter();
+        let walks = network.sidewalks.iter();
         let walk =
             walks.max_by(|a, b| length(&a.path).total_cmp(&length(&b.path))).ok_or(StageError::NoPlace)?;
         let (middle, heading) = polyline::at(&walk.path, length(&walk.path) * 0.5);
         let body = Shape::Capsule { radius: 0.25, height: 1.75 };
-        let at = |point: Point2, yaw: f64| pose_facing(Point3::new(point.x, point.y, 0.0), yaw);
+        let land = world.ground().cloned();
+        let at = |point: Point2, yaw: f64| pose_facing(on_ground(land.as_deref(), point), yaw);
         let along = |metres: f64| middle + direction(heading) * metres;
         let me = world.spawn(
             EntityDesc::new(EntityKind::Person, at(middle, heading), body)
@@ -180,24 +193,29 @@ impl Cast {
             }
             world.spawn(desc)?;
         }
-        let car = Self::park(city, world, along(-14.0))?;
+        let car = Self::park(network, world, along(-14.0))?;
         Ok(Self { me, other, car })
     }
 
     /// A red car at the right edge of the lane nearest to a place.
-    fn park(city: &City, world: &mut World, near: Point2) -> Result<EntityId, StageError> {
-        let lanes = city.network.lanes.iter().filter(|lane| lane.is_driven() && lane.length > 30.0);
+    fn park(network: &RoadNetwork, world: &mut World, near: Point2) -> Result<EntityId, StageError> {
+        let lanes = network.lanes.iter().filter(|lane| lane.is_driven() && lane.length > 30.0);
         let places = lanes.filter_map(|lane| Some((polyline::closest(&lane.path, &near)?, lane)));
         let (place, lane) =
             places.min_by(|a, b| a.0.distance.total_cmp(&b.0.distance)).ok_or(StageError::NoPlace)?;
         let (middle, heading) = polyline::at(&lane.path, place.station.clamp(10.0, lane.length - 10.0));
         let right = direction(heading - std::f64::consts::FRAC_PI_2) * (lane.width * 0.5 - 1.0);
         let spot = middle + right;
-        let pose = pose_facing(Point3::new(spot.x, spot.y, 0.0), heading);
+        let pose = pose_facing(on_ground(world.ground().map(|land| &**land), spot), heading);
         let car =
             EntityDesc::new(EntityKind::Car, pose, Shape::cuboid(4.3, 1.8, 1.5)).colored([0.55, 0.03, 0.02]);
         Ok(world.spawn(car)?)
     }
+}
+
+/// A place on the ground, which is level at 0 where the world has no land.
+fn on_ground(land: Option<&Ground>, point: Point2) -> Point3 {
+    Point3::new(point.x, point.y, land.map_or(0.0, |land| land.height(point)))
 }
 
 /// Which way somebody looks, radians from east.

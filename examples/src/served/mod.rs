@@ -9,6 +9,7 @@ use std::path::PathBuf;
 pub use bodies::BroughtBodies;
 pub use eye::RenderEye;
 use serde::{Deserialize, Serialize};
+use simworld_agents::scenes::file::{SceneFile, SceneFileError};
 use simworld_citygen::{City, CityConfig, CityError};
 use simworld_core::asset::{AssetError, Catalogue};
 use simworld_core::clock::{Clock, ClockError};
@@ -20,14 +21,19 @@ use simworld_physics::PhysicsError;
 use simworld_traffic::{TrafficConfig, TrafficDynamics, TrafficError};
 use thiserror::Error;
 
+use crate::written::Written;
+
 /// Which city is served.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CitySettings {
     /// Seed of the city and its traffic.
     pub seed: u64,
     /// Roads of the city.
     pub roads: u32,
+    /// The text of a scene that is written by hand, in place of a city of so many roads.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<String>,
     /// Vehicles of its traffic.
     pub vehicles: u32,
     /// Pedestrians of its traffic.
@@ -53,6 +59,9 @@ pub enum ServedError {
     /// No city.
     #[error(transparent)]
     City(#[from] CityError),
+    /// No scene.
+    #[error(transparent)]
+    Scene(#[from] SceneFileError),
     /// No step of that length.
     #[error(transparent)]
     Clock(#[from] ClockError),
@@ -97,10 +106,23 @@ pub enum ServedError {
 /// # Errors
 /// A setting out of range.
 pub fn simulation(settings: &CitySettings) -> Result<Simulation, ServedError> {
-    let seed = Seed(settings.seed);
-    let mut world = World::with_clock(Clock::new(settings.step_microseconds)?);
-    let city = City::generate(&CityConfig::with_roads(settings.roads), seed.stream("city").seed())?;
+    let clock = Clock::new(settings.step_microseconds)?;
+    if let Some(text) = &settings.scene {
+        let written = Written::of(SceneFile::parse(text)?, clock)?;
+        return simulation_of(written.loaded.world, settings);
+    }
+    let mut world = World::with_clock(clock);
+    let seed = Seed(settings.seed).stream("city").seed();
+    let city = City::generate(&CityConfig::with_roads(settings.roads), seed)?;
     city.populate(&mut world)?;
+    simulation_of(world, settings)
+}
+
+/// The same of a world that is there already; without streets it has no traffic.
+///
+/// # Errors
+/// A setting out of range.
+pub fn simulation_of(mut world: World, settings: &CitySettings) -> Result<Simulation, ServedError> {
     for (_, asset) in Catalogue::standard().iter() {
         // The city has its own make of some things; those stay.
         let is_there = world.assets().is_some_and(|own| own.find(&asset.name).is_some());
@@ -110,9 +132,13 @@ pub fn simulation(settings: &CitySettings) -> Result<Simulation, ServedError> {
     }
     let (vehicles, pedestrians) = (settings.vehicles, settings.pedestrians);
     let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
-    let traffic = TrafficDynamics::new(&mut world, &config, seed.stream("traffic").seed())?;
+    let seed = Seed(settings.seed).stream("traffic").seed();
+    let has_streets = world.roads().is_some();
+    let traffic = has_streets.then(|| TrafficDynamics::new(&mut world, &config, seed)).transpose()?;
     let mut simulation = Simulation::new(world);
-    simulation.add_dynamics("traffic", Box::new(traffic));
+    if let Some(traffic) = traffic {
+        simulation.add_dynamics("traffic", Box::new(traffic));
+    }
     simulation.add_dynamics("bodies", Box::new(BroughtBodies::new()?));
     Ok(simulation)
 }

@@ -1,4 +1,4 @@
-//! What is looked at: a city with traffic, or a recorded run that is played again.
+//! What is looked at: a city or a scene with traffic, or a recorded run that is played again.
 
 use std::path::Path;
 
@@ -15,6 +15,7 @@ use simworld_traffic::{TrafficConfig, TrafficDynamics};
 use super::Flight;
 use crate::Outcome;
 use crate::delivery::{Assembly, ReadLog, RunConfig, assemble_with, make_city, read_log};
+use crate::written::Written;
 
 /// A step of a city, µs.
 const STEP: u64 = 50_000;
@@ -36,8 +37,16 @@ pub struct Stage {
 }
 
 enum Moving {
-    Traffic { world: Box<World>, traffic: Box<TrafficDynamics> },
-    Replay { assembly: Box<Assembly>, log: Box<ReadLog>, step: f64 },
+    /// Without streets there is no traffic.
+    Traffic {
+        world: Box<World>,
+        traffic: Option<Box<TrafficDynamics>>,
+    },
+    Replay {
+        assembly: Box<Assembly>,
+        log: Box<ReadLog>,
+        step: f64,
+    },
 }
 
 impl Stage {
@@ -48,11 +57,28 @@ impl Stage {
     pub fn of_city(city: &City, vehicles: u32, pedestrians: u32, seed: Seed) -> Outcome<Self> {
         let mut world = World::with_clock(Clock::new(STEP)?);
         city.populate(&mut world)?;
+        Self::of_world(world, vehicles, pedestrians, seed)
+    }
+
+    /// A scene that is written by hand, likewise; where it has no street nobody moves in it.
+    ///
+    /// # Errors
+    /// A file that is no scene, a scene that cannot be, or a setting out of range.
+    pub fn of_scene(path: &Path, vehicles: u32, pedestrians: u32, seed: Seed) -> Outcome<Self> {
+        let written = Written::read(path, Clock::new(STEP)?)?;
+        written.tell();
+        Self::of_world(written.loaded.world, vehicles, pedestrians, seed)
+    }
+
+    fn of_world(mut world: World, vehicles: u32, pedestrians: u32, seed: Seed) -> Outcome<Self> {
         let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
-        let mut traffic = TrafficDynamics::new(&mut world, &config, seed)?;
-        traffic.traffic_mut().set_workers(Box::new(AllThreads));
-        let mut stage =
-            Self { moving: Moving::Traffic { world: Box::new(world), traffic: Box::new(traffic) } };
+        let mut traffic = None;
+        if world.roads().is_some() {
+            let mut own = TrafficDynamics::new(&mut world, &config, seed)?;
+            own.traffic_mut().set_workers(Box::new(AllThreads));
+            traffic = Some(Box::new(own));
+        }
+        let mut stage = Self { moving: Moving::Traffic { world: Box::new(world), traffic } };
         for _ in 0..600 {
             stage.step()?;
         }
@@ -99,7 +125,9 @@ impl Stage {
             Moving::Traffic { world, traffic } => {
                 world.begin_step();
                 let dt = world.clock().dt();
-                traffic.step(world, dt)?;
+                if let Some(traffic) = traffic {
+                    traffic.step(world, dt)?;
+                }
                 world.finish_step();
                 Ok(Going::On)
             }

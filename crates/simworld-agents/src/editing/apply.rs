@@ -15,7 +15,7 @@ use simworld_core::seed::Stream;
 use super::Placing;
 use super::astray::Astray;
 use super::carry::Load;
-use super::describe::{describe, listed};
+use super::describe::{describe, listed, made_as};
 use super::edit::{Edit, Make, Stand};
 use super::editable::Editable;
 use super::error::EditError;
@@ -212,7 +212,7 @@ impl Applier<'_> {
         Ok(desc)
     }
 
-    /// Takes things out; what stood on them is set down.
+    /// Takes things out; what stood on them, or hung on them, is set down.
     fn remove_all(&mut self, things: &[EntityId]) -> Result<(), EditError> {
         // Looked at before anything is gone, for what stands on two of them falls past both.
         let loads: Vec<Load> = things.iter().map(|thing| self.load(*thing, things)).collect();
@@ -230,26 +230,33 @@ impl Applier<'_> {
         Ok(())
     }
 
-    /// Puts things elsewhere, each with what stands on it.
+    /// Puts things elsewhere, each with what stands on it. What lay on several of them falls past all when all are gone.
     fn move_all(&mut self, things: &[EntityId], stands: &[Stand]) -> Result<(), EditError> {
-        let count = things.len() as u32;
+        let is_first = |(at, thing): &(usize, &EntityId)| !things[..*at].contains(thing);
+        let once: Vec<EntityId> =
+            things.iter().enumerate().filter(is_first).map(|(_, thing)| *thing).collect();
+        let (things, count) = (&once[..], once.len() as u32);
         let mut left = with_what_hangs_on(self.scene.world(), things);
-        for (rank, thing) in things.iter().enumerate() {
+        let loads: Vec<Load> = things.iter().map(|thing| self.load(*thing, things)).collect();
+        let mut told = Vec::new();
+        for (rank, (thing, load)) in things.iter().zip(&loads).enumerate() {
             let desc = self.entity(*thing)?.to_desc();
-            let load = self.load(*thing, things);
-            self.stands_to_no_load_of_its_own(*thing, &load, stands)?;
-            let mut lifted = self.lifted(&[(*thing, &load)]);
+            self.stands_to_no_load_of_its_own(*thing, load, stands)?;
+            let mut lifted = self.lifted(&[(*thing, load)]);
             lifted.extend(&left);
             let subject = Subject { id: Some(*thing), kind: desc.kind, info: &desc.info };
             let on_it = load.seen_from(&desc.pose);
             let pose = self.place(subject, (rank as u32, count), stands, (&lifted, &on_it))?;
             let what = format!("to move {}", self.label(*thing));
             self.change(&Command::Move { id: *thing, pose })?;
-            self.carry(&load, (&desc.pose, &pose), &lifted, &what)?;
-            self.set_down(&load.leaning, load.ground, &what)?;
+            self.carry(load, (&desc.pose, &pose), &lifted, &what)?;
+            told.push(what);
             left.retain(|id| id != thing);
             self.focus.it = Some(*thing);
             self.focus.place = Some(simworld_core::geometry::planar(&pose));
+        }
+        for (load, what) in loads.iter().zip(&told) {
+            self.set_down(&load.leaning, load.ground, what)?;
         }
         self.focus.beside = beside(stands);
         Ok(())
@@ -279,7 +286,11 @@ impl Applier<'_> {
         let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted, load };
         let placing = placer.place(subject, rank, stands, stream);
         let pose = placing.pose();
-        let what = || subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " "));
+        let made = || made_as(world, subject.info);
+        let what = || {
+            let name = subject.info.name.clone().or_else(made);
+            name.unwrap_or_else(|| subject.kind.to_string().replace('_', " "))
+        };
         let place = || stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and ");
         let refused = pose.is_none().then(|| {
             let instead = relaxed(&placer, subject, stands, stream);

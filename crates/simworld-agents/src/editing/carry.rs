@@ -6,18 +6,20 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Scene};
 
 use super::apply::Applier;
+use super::borne::{is_borne, rest_below, surface_below};
 use super::check::SUPPORT_GAP;
+use super::describe::called;
 use super::edit::Stand;
 use super::error::EditError;
 use super::place::{in_the_way, under};
-use super::rest::{
-    foot_of, highest_below, is_firm_under, load_of, middle_of, support_of, touching, with_what_hangs_on,
-};
+use super::rest::{bearer_of, foot_of, load_of, middle_of, touching, with_what_hangs_on};
 use super::row::tell;
 use super::solid::Solid;
 
 /// So many things that were set down are told one by one.
 const TOLD: usize = 4;
+/// Ground that lies so much deeper than who carries is below who flies, m.
+const DEEP: f64 = 0.5;
 
 /// What stands on a thing before an edit touches that.
 pub(super) struct Load {
@@ -25,8 +27,10 @@ pub(super) struct Load {
     pub(super) things: Vec<(EntityId, Solid)>,
     /// Those of them that stand on the thing itself.
     pub(super) direct: Vec<EntityId>,
-    /// What touches the top of the thing, and has its middle on something else.
+    /// What touches the top of the thing, and has its middle on something else, or between.
     pub(super) leaning: Vec<EntityId>,
+    /// What hangs on the thing: what somebody holds, who sits on it.
+    held: Vec<EntityId>,
     /// The height of the ground below, where the scene has no land, m.
     pub(super) ground: f64,
 }
@@ -39,7 +43,7 @@ impl Load {
 
     /// The things that lose what holds them up where the thing is taken away.
     pub(super) fn left_in_the_air(&self) -> Vec<EntityId> {
-        self.direct.iter().chain(&self.leaning).copied().collect()
+        self.held.iter().chain(&self.direct).chain(&self.leaning).copied().collect()
     }
 }
 
@@ -49,11 +53,14 @@ impl Applier<'_> {
         let world = self.scene.world();
         let ids = load_of(world, thing, besides);
         let solid = |id: &EntityId| world.entity(*id).map(|entity| (*id, Solid::of(&entity)));
-        let direct = ids.iter().copied().filter(|id| support_of(world, *id) == Some(thing)).collect();
+        let direct = ids.iter().copied().filter(|id| bearer_of(world, *id) == Some(thing)).collect();
         let mut leaning = touching(world, thing);
         leaning.retain(|id| !ids.contains(id) && !besides.contains(id));
+        let mut held = Vec::new();
+        world.visit_attached(thing, &mut |part| held.push(part.id));
+        held.retain(|id| !besides.contains(id));
         let ground = world.entity(foot_of(world, thing)).map_or(0.0, |foot| foot.position().z);
-        Load { things: ids.iter().filter_map(solid).collect(), direct, leaning, ground }
+        Load { things: ids.iter().filter_map(solid).collect(), direct, leaning, held, ground }
     }
 
     /// Things that are as good as gone while an edit moves these with their loads: all of them, and what hangs on any.
@@ -71,11 +78,7 @@ impl Applier<'_> {
         load: &Load,
         stands: &[Stand],
     ) -> Result<(), EditError> {
-        let other = |stand: &Stand| match stand {
-            Stand::Between { other, .. } => Some(*other),
-            _ => None,
-        };
-        let mut anchors = stands.iter().flat_map(|stand| stand.anchor().into_iter().chain(other(stand)));
+        let mut anchors = stands.iter().flat_map(Stand::anchors);
         let is_on_it = |anchor: &EntityId| load.things.iter().any(|(id, _)| id == anchor);
         let Some(anchor) = anchors.find(is_on_it) else { return Ok(()) };
         let told: Vec<String> = stands.iter().map(|stand| stand.told(self.scene.world())).collect();
@@ -111,6 +114,10 @@ impl Applier<'_> {
         for id in &load.direct {
             let world = self.scene.world();
             let (below, above) = (self.entity(thing)?, self.entity(*id)?);
+            if by < -SUPPORT_GAP && is_borne(world, &above) {
+                // The top that sinks is not all that it stands on.
+                continue;
+            }
             if Solid::of(&below).distance_to(middle_of(&above)) > 0.0 {
                 fallen.push(*id);
                 continue;
@@ -130,24 +137,24 @@ impl Applier<'_> {
             let world = self.scene.world();
             let entity = self.entity(*thing)?;
             let (middle, solid, low) = (middle_of(&entity), Solid::of(&entity), entity.bounds.min.z);
-            let is_firm = |on: EntityId| world.entity(on).is_some_and(|below| is_firm_under(&below, middle));
-            if support_of(world, *thing).is_some_and(is_firm) {
+            if is_borne(world, &entity) {
                 continue;
             }
             let mut group = vec![*thing];
             group.extend(load_of(world, *thing, &[]));
             let lifted = with_what_hangs_on(world, &group);
-            let below = highest_below(world, &solid, &lifted);
-            if let Some((_, on)) = below.filter(|(_, on)| !is_firm(*on)) {
-                let (label, on) = (self.label(*thing), self.label(on));
+            let below = rest_below(world, &solid, middle, &lifted);
+            if let Some(rest) = below.filter(|rest| !rest.stays) {
+                let (label, on) = (self.label(*thing), self.label(rest.on));
                 let why = format!("{label} would slip off {on}, which is below it; move {label} first");
                 return Err(EditError::Impossible { what: what.to_owned(), why });
             }
-            let height = below.map_or_else(|| self.ground_under(entity.kind, &solid, ground), |(top, _)| top);
+            let height =
+                below.map_or_else(|| self.ground_under(entity.kind, &solid, ground), |rest| rest.top);
             if (height - low).abs() <= SUPPORT_GAP {
                 continue;
             }
-            let on = below.map_or_else(|| "the ground".to_owned(), |(_, on)| self.label(on));
+            let on = below.map_or_else(|| "the ground".to_owned(), |rest| self.label(rest.on));
             told.push(format!("{} ({thing}) was set down on {on}", self.label(*thing)));
             self.raise(&group, height - low, &lifted, what)?;
         }
@@ -172,8 +179,9 @@ impl Applier<'_> {
 
     /// What a thing is called.
     pub(super) fn label(&self, thing: EntityId) -> String {
-        let entity = self.scene.world().entity(thing);
-        entity.map_or_else(|| thing.to_string(), |entity| entity.label().replace('_', " "))
+        let world = self.scene.world();
+        let entity = world.entity(thing);
+        entity.map_or_else(|| thing.to_string(), |entity| called(world, &entity).replace('_', " "))
     }
 
     fn raise(
@@ -195,8 +203,11 @@ impl Applier<'_> {
         self.change(&Command::Move { id, pose: solid.pose })
     }
 
-    /// The height of the ground on which a thing would stand, m.
+    /// The height of the ground on which a thing would stand, m: that of the land or, without land, that on which its carrier stood, if
+    /// that did not fly.
     fn ground_under(&self, kind: EntityKind, solid: &Solid, ground: f64) -> f64 {
-        self.scene.world().ground().map_or(ground, |land| under(land, kind, solid).1)
+        let world = self.scene.world();
+        let deeper = || surface_below(world, solid).filter(|surface| surface + DEEP < ground);
+        world.ground().map_or_else(|| deeper().unwrap_or(ground), |land| under(land, kind, solid).1)
     }
 }

@@ -2,12 +2,24 @@
 
 use simworld_core::geometry::{Point2, yaw_of};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Relation, Scene, World};
+use simworld_core::scene::{EntityInfo, EntityRef, Relation, Scene, World};
 
 use super::edit::Stand;
 
 /// So many things are listed by name.
 const LISTED: usize = 20;
+
+/// What a thing is called in answers: its name or, of what was made for words, these; else what it is used as, or what it is.
+pub(crate) fn called(scene: &dyn Scene, thing: &EntityRef<'_>) -> String {
+    let made = if thing.info.name.is_none() { made_as(scene, thing.info) } else { None };
+    made.unwrap_or_else(|| thing.label().to_owned())
+}
+
+/// The words for which a thing was made.
+pub(crate) fn made_as(scene: &dyn Scene, thing: &EntityInfo) -> Option<String> {
+    let asset = scene.assets()?.get(thing.asset?)?;
+    asset.has_address().then(|| asset.called())
+}
 
 /// What a thing is, where it stands and what is special about it.
 pub(super) fn describe(world: &World, thing: EntityId) -> String {
@@ -15,7 +27,7 @@ pub(super) fn describe(world: &World, thing: EntityId) -> String {
     let (size, at) = (entity.info.shape.size(), entity.planar());
     let mut told = vec![format!(
         "{} ({thing}), a {}, {:.1} m long, {:.1} m wide and {:.1} m high, at ({:.1}, {:.1}), turned {:.0}° from east",
-        entity.label(),
+        called(world, &entity),
         entity.kind.as_str().replace('_', " "),
         size.x,
         size.y,
@@ -35,7 +47,7 @@ pub(super) fn listed(world: &World, things: &[EntityId], from: Point2) -> String
     let told = |thing: &EntityId| {
         let entity = world.entity(*thing)?;
         let distance = entity.info.shape.planar_distance(entity.pose, &from);
-        Some(format!("{} ({thing}) at {distance:.0} m", entity.label()))
+        Some(format!("{} ({thing}) at {distance:.0} m", called(world, &entity)))
     };
     let mut all: Vec<String> = things.iter().take(LISTED).filter_map(told).collect();
     if things.len() > LISTED {
@@ -48,7 +60,8 @@ impl Stand {
     /// The relation in words: "next to Turing Library".
     pub fn told(&self, scene: &dyn Scene) -> String {
         let label = |id: &EntityId| {
-            scene.entity(*id).map_or_else(|| id.to_string(), |entity| entity.label().replace('_', " "))
+            let told = |entity: EntityRef<'_>| called(scene, &entity).replace('_', " ");
+            scene.entity(*id).map_or_else(|| id.to_string(), told)
         };
         match self {
             Self::To { relation, anchor } => {

@@ -30,7 +30,7 @@ pub enum Edit {
         /// How far apart, or how many.
         spacing: Spacing,
     },
-    /// Takes things out; what stood on them is set down on what is below, and the answer says so.
+    /// Takes things out; what stood on them, or was held by them, is set down on what is below, and the answer says so.
     Remove {
         /// Which.
         things: Vec<EntityId>,

@@ -24,11 +24,7 @@ pub(super) struct Floors {
 
 impl Floors {
     pub(super) fn of(scene: &dyn Scene, line: &Line) -> Self {
-        let anchors: Vec<EntityId> = match line {
-            Line::Along { anchor } | Line::Around { anchor } => vec![*anchor],
-            Line::Between { one, other } => vec![*one, *other],
-            Line::Road { .. } | Line::RoadSide { .. } => Vec::new(),
-        };
+        let anchors: Vec<EntityId> = line.anchors().collect();
         let mut floors = Self { raised: Vec::new(), has_ground: anchors.is_empty(), ground: None };
         for anchor in anchors {
             if let Some(floor) = support_of(scene, anchor) {

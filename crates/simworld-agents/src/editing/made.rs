@@ -2,7 +2,7 @@
 
 use simworld_core::id::EntityId;
 
-use super::edit::{Edit, Line, Stand};
+use super::edit::{Edit, Stand};
 use super::error::EditError;
 
 /// The slot that stands for the first thing that is made; no world has so many. The last slot of all is nobody's.
@@ -65,8 +65,8 @@ impl Edit {
     /// Shows every id of a thing in it.
     fn each_id(&mut self, change: &mut dyn FnMut(&mut EntityId)) {
         match self {
-            Self::Add { stands, .. } => stands.iter_mut().for_each(|stand| stand.each_id(change)),
-            Self::Row { line, .. } => line.each_id(change),
+            Self::Add { stands, .. } => show(stands, change),
+            Self::Row { line, .. } => line.anchors_mut().for_each(change),
             Self::Remove { things }
             | Self::Rotate { things, .. }
             | Self::Paint { things, .. }
@@ -75,9 +75,7 @@ impl Edit {
             | Self::List { things } => things.iter_mut().for_each(change),
             Self::Move { things, stands } => {
                 things.iter_mut().for_each(&mut *change);
-                for stand in stands.iter_mut() {
-                    stand.each_id(change);
-                }
+                show(stands, change);
             }
             Self::Face { things, towards } => {
                 things.iter_mut().for_each(&mut *change);
@@ -89,9 +87,7 @@ impl Edit {
             }
             Self::Copy { thing, stands, .. } => {
                 change(thing);
-                for stand in stands.iter_mut() {
-                    stand.each_id(change);
-                }
+                show(stands, change);
             }
             Self::Name { thing, .. } | Self::Describe { thing } => change(thing),
             Self::SetEnvironment(_) | Self::SetPassage { .. } | Self::Leave { .. } => {}
@@ -99,43 +95,8 @@ impl Edit {
     }
 }
 
-impl Line {
-    fn each_id(&mut self, change: &mut dyn FnMut(&mut EntityId)) {
-        match self {
-            Self::Road { .. } | Self::RoadSide { .. } => {}
-            Self::Along { anchor } | Self::Around { anchor } => change(anchor),
-            Self::Between { one, other } => {
-                change(one);
-                change(other);
-            }
-        }
-    }
-}
-
-impl Stand {
-    fn each_id(&mut self, change: &mut dyn FnMut(&mut EntityId)) {
-        match self {
-            Self::To { anchor, .. }
-            | Self::AcrossFrom { anchor }
-            | Self::Along { anchor }
-            | Self::AtCornerOf { anchor }
-            | Self::Towards { anchor, .. }
-            | Self::Offset { anchor, .. }
-            | Self::Apart { anchor, .. }
-            | Self::OnBlockOf { anchor }
-            | Self::InMiddleOf { anchor }
-            | Self::AtEdgeOf { anchor } => change(anchor),
-            Self::Between { one, other } => {
-                change(one);
-                change(other);
-            }
-            Self::AlongRoad { .. }
-            | Self::OnSide { .. }
-            | Self::AtJunction { .. }
-            | Self::At { .. }
-            | Self::Around { .. } => {}
-        }
-    }
+fn show(stands: &mut [Stand], change: &mut dyn FnMut(&mut EntityId)) {
+    stands.iter_mut().flat_map(Stand::anchors_mut).for_each(change);
 }
 
 #[cfg(test)]

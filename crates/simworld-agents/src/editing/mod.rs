@@ -11,8 +11,10 @@
 //! for want of it is told ([`Astray`]). What stands on a thing goes along with it, or is set down where it is gone. [`faults`] and
 //! [`Difference`] judge the result from outside.
 
+mod anchors;
 mod apply;
 mod astray;
+mod borne;
 mod carry;
 mod check;
 mod describe;
@@ -48,6 +50,9 @@ pub use astray::Astray;
 #[cfg(feature = "scene-files")]
 pub(crate) use check::SUPPORT_GAP;
 pub use check::{Difference, Fault, faults};
+pub(crate) use describe::called;
+#[cfg(feature = "thought")]
+pub(crate) use describe::made_as;
 pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;

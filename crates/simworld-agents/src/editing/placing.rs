@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use simworld_core::geometry::Pose;
 use simworld_core::id::EntityId;
-use simworld_core::scene::Scene;
+use simworld_core::scene::{EntityRef, Scene};
 
+use super::describe::called;
 use super::land::{Land, LandFit};
 
 /// So much of a score is how near a place is to where people would look first; the rest is the ground, of which the better wins
@@ -60,7 +61,8 @@ impl Outcome {
     /// ```
     pub fn told(&self, scene: &dyn Scene) -> String {
         let label = |id: &EntityId| {
-            scene.entity(*id).map_or_else(|| id.to_string(), |entity| format!("{} ({id})", entity.label()))
+            let told = |entity: EntityRef<'_>| format!("{} ({id})", called(scene, &entity));
+            scene.entity(*id).map_or_else(|| id.to_string(), told)
         };
         match self {
             Self::Fits { score, fit } => format!("{}: {score:.2} of 1", fit.land.told()),

@@ -11,7 +11,7 @@ use super::place::is_surface;
 use super::solid::Solid;
 
 /// What is no thicker than this holds nothing up, m: what lies on a mat stands on the ground.
-const THIN: f64 = 0.01;
+pub(super) const THIN: f64 = 0.01;
 /// So many things are followed down from one to the next that it stands or hangs on: what somebody holds may be below its own bearer,
 /// and then there would be no end.
 const DEEPEST: usize = 64;
@@ -31,26 +31,44 @@ pub(super) fn middle_of(thing: &EntityRef<'_>) -> Point2 {
     thing.bounds.center().xy()
 }
 
-/// Whether a thing holds up what has its middle there: it would not fall off.
-pub(super) fn is_firm_under(below: &EntityRef<'_>, middle: Point2) -> bool {
-    has_flat_top(below.kind) && Solid::of(below).distance_to(middle) == 0.0
+/// Something that a thing touches below, and that may hold it up.
+#[derive(Clone, Copy)]
+pub(super) struct Holder {
+    id: EntityId,
+    /// Whether things can stand on top of it.
+    pub(super) is_flat: bool,
+    pub(super) solid: Solid,
+}
+
+/// All that may hold a thing up, by ascending id.
+pub(super) fn holders(scene: &dyn Scene, thing: &EntityRef<'_>) -> Vec<Holder> {
+    let mut found = Vec::new();
+    let _ = scene.visit(&thing.bounds.inflated(SUPPORT_GAP), &mut |other| {
+        if holds(&other, thing) {
+            found.push(Holder { id: other.id, is_flat: has_flat_top(other.kind), solid: Solid::of(&other) });
+        }
+        ControlFlow::Continue(())
+    });
+    found.sort_unstable_by_key(|holder| holder.id);
+    found
 }
 
 /// What a thing stands on, if that is no ground: what is below its middle or, where nothing is, the first that it touches.
 pub(super) fn support_of(scene: &dyn Scene, thing: EntityId) -> Option<EntityId> {
     let thing = scene.entity(thing)?;
-    let middle = middle_of(&thing);
-    let mut best: Option<(bool, EntityId)> = None;
-    let _ = scene.visit(&thing.bounds.inflated(SUPPORT_GAP), &mut |other| {
-        if holds(&other, &thing) {
-            let rank = (Solid::of(&other).distance_to(middle) > 0.0, other.id);
-            if best.is_none_or(|best| rank < best) {
-                best = Some(rank);
-            }
-        }
-        ControlFlow::Continue(())
-    });
-    best.map(|(_, id)| id)
+    let (below, middle) = (holders(scene, &thing), middle_of(&thing));
+    let under_it = below.iter().find(|holder| holder.solid.distance_to(middle) == 0.0);
+    under_it.or(below.first()).map(|holder| holder.id)
+}
+
+/// With what a thing goes where that goes: with what is below its middle or, where nothing is, with what it stands on alone. What lies
+/// between two goes with neither.
+pub(super) fn bearer_of(scene: &dyn Scene, thing: EntityId) -> Option<EntityId> {
+    let thing = scene.entity(thing)?;
+    let (below, middle) = (holders(scene, &thing), middle_of(&thing));
+    let under_it = below.iter().find(|holder| holder.solid.distance_to(middle) == 0.0);
+    let alone = if let [only] = &below[..] { Some(only) } else { None };
+    under_it.or(alone).map(|holder| holder.id)
 }
 
 /// What touches the top of a thing from above, whether it stands on that alone or on something else too; by ascending id.
@@ -78,8 +96,8 @@ pub(super) fn load_of(scene: &dyn Scene, thing: EntityId, besides: &[EntityId]) 
     while let Some(carrier) = carriers.get(next).copied() {
         next += 1;
         for above in touching(scene, carrier) {
-            let stands_on_it = support_of(scene, above) == Some(carrier);
-            if stands_on_it && !carriers.contains(&above) && !besides.contains(&above) {
+            let goes_with_it = bearer_of(scene, above) == Some(carrier);
+            if goes_with_it && !carriers.contains(&above) && !besides.contains(&above) {
                 load.push(above);
                 carriers.push(above);
             }
@@ -118,30 +136,6 @@ pub(super) fn foot_of(scene: &dyn Scene, thing: EntityId) -> EntityId {
         }
     }
     foot
-}
-
-/// The highest thing below a solid, on which it would come to rest, and its top, m; `None` where there is nothing but the ground. Of two
-/// as high the lower id.
-pub(super) fn highest_below(
-    scene: &dyn Scene,
-    solid: &Solid,
-    besides: &[EntityId],
-) -> Option<(f64, EntityId)> {
-    let bounds = solid.bounds();
-    let mut best: Option<(f64, EntityId)> = None;
-    let _ = scene.visit(&Aabb::column(bounds.min.xy(), bounds.max.xy()), &mut |other| {
-        let top = other.bounds.max.z;
-        let is_below = !is_surface(other.kind)
-            && !besides.contains(&other.id)
-            && top <= bounds.min.z + SUPPORT_GAP
-            && Solid::of(&other).is_over(solid);
-        let is_better = |(height, id): (f64, EntityId)| top > height || (top == height && other.id < id);
-        if is_below && best.is_none_or(is_better) {
-            best = Some((top, other.id));
-        }
-        ControlFlow::Continue(())
-    });
-    best
 }
 
 /// Whether a thing that stands there rests on another with its whole footprint.
@@ -212,15 +206,15 @@ mod tests {
     }
 
     #[test]
-    fn what_falls_comes_to_rest_on_the_highest_below_it() {
+    fn a_board_between_two_tables_goes_with_neither_and_one_that_leans_out_goes_with_the_only_one() {
         let mut world = World::new();
-        let table = table(&mut world, 0.0);
-        let tray = put(&mut world, EntityKind::Prop, [0.4, 0.4, 0.2], [0.0, 0.0, 0.8]);
-        let cup = Solid::standing(Shape::cuboid(0.1, 0.1, 0.1), Point3::new(0.0, 0.0, 3.0), 0.0);
-        assert_eq!(highest_below(&world, &cup, &[]).map(|(_, on)| on), Some(tray));
-        assert_eq!(highest_below(&world, &cup, &[tray]), Some((0.8, table)));
-        assert_eq!(highest_below(&world, &cup, &[tray, table]), None);
-        let beside = Solid::standing(cup.shape, Point3::new(0.6, 0.0, 3.0), 0.0);
-        assert_eq!(highest_below(&world, &beside, &[]), None, "beside the table there is the ground");
+        let (one, other) = (table(&mut world, 0.0), table(&mut world, 2.0));
+        let between = put(&mut world, EntityKind::Prop, [1.6, 0.3, 0.05], [1.0, 0.0, 0.8]);
+        assert_eq!((bearer_of(&world, between), support_of(&world, between)), (None, Some(one)));
+        assert_eq!((load_of(&world, one, &[]), load_of(&world, other, &[])), (vec![], vec![]));
+        assert_eq!((touching(&world, one), touching(&world, other)), (vec![between], vec![between]));
+        let far = table(&mut world, 9.0);
+        let leans_out = put(&mut world, EntityKind::Prop, [1.0, 0.3, 0.05], [9.8, 0.0, 0.8]);
+        assert_eq!(load_of(&world, far, &[]), [leans_out]);
     }
 }

@@ -151,28 +151,6 @@ impl Stand {
             Self::Around { point } => solid.distance_to(*point) <= AROUND,
         }
     }
-
-    /// The thing that it is about first, if it is about one.
-    pub(crate) fn anchor(&self) -> Option<EntityId> {
-        match self {
-            Self::To { anchor, .. }
-            | Self::AcrossFrom { anchor }
-            | Self::Along { anchor }
-            | Self::AtCornerOf { anchor }
-            | Self::Towards { anchor, .. }
-            | Self::Offset { anchor, .. }
-            | Self::Apart { anchor, .. }
-            | Self::OnBlockOf { anchor }
-            | Self::InMiddleOf { anchor }
-            | Self::AtEdgeOf { anchor }
-            | Self::Between { one: anchor, .. } => Some(*anchor),
-            Self::AlongRoad { .. }
-            | Self::OnSide { .. }
-            | Self::AtJunction { .. }
-            | Self::At { .. }
-            | Self::Around { .. } => None,
-        }
-    }
 }
 
 /// How much more or less a distance may be that was named, m.

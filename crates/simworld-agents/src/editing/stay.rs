@@ -10,6 +10,7 @@ use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape};
 use super::apply::{Applier, check_factor};
 use super::carry::Load;
 use super::check::SUPPORT_GAP;
+use super::describe::called;
 use super::error::EditError;
 use super::land::Streets;
 use super::place::{doors_before, doorway, in_the_way, land_carries, under};
@@ -58,8 +59,9 @@ struct Change<'a> {
 impl Change<'_> {
     /// Why the thing may not stand so although nothing is in the way.
     fn fault(&self, scene: &dyn Scene, streets: Option<&Streets>) -> Option<String> {
-        let label =
-            |id: EntityId| scene.entity(id).map_or_else(String::new, |it| it.label().replace('_', " "));
+        let label = |id: EntityId| {
+            scene.entity(id).map_or_else(String::new, |it| called(scene, &it).replace('_', " "))
+        };
         if let Some(support) = self.support.and_then(|id| scene.entity(id)) {
             let held = self.before.iter().any(|before| carries(&support, &before.solid));
             let slips = held && !carries(&support, &self.body.solid);

@@ -76,7 +76,7 @@ impl Stock {
     /// Takes a new asset into the indices. How rare a word is changes for all, so that the index is made anew; what was made took longer.
     fn learn(&mut self, id: AssetId) {
         let Some(asset) = self.catalogue.get(id) else { return };
-        let name = called(&asset.name).join(" ");
+        let name = asset.called();
         for said in std::iter::once(&name).chain(&asset.tags) {
             let parts: Vec<&str> = said.split([' ', '_', '-']).filter(|part| !part.is_empty()).collect();
             self.words.extend(parts.iter().map(|part| (*part).to_owned()));
@@ -124,12 +124,6 @@ impl Stock {
         let singular = || word.strip_suffix('s').and_then(|word| self.joined.get(word));
         self.joined.get(word).or_else(singular).map(String::as_str)
     }
-}
-
-/// The words of the name of an asset that was made, without the address that tells it from others of its name.
-fn called(name: &str) -> Vec<&str> {
-    let is_word = |part: &&str| !part.is_empty() && !part.contains(|letter: char| letter.is_ascii_digit());
-    name.split('_').take_while(is_word).collect()
 }
 
 /// What was made, with the words of its prompt among those by which people ask for it; not those that it does not show.

@@ -48,7 +48,7 @@ impl Workshop {
                         [] => String::new(),
                         unused => format!(", without {}", unused.join(", ")),
                     };
-                    let (name, by) = (&made.asset.name, bench.generator.name());
+                    let (name, by) = (made.asset.called(), bench.generator.name());
                     let note = format!("generated {name} from {words:?} ({by}){unused}");
                     if Arc::make_mut(stock).keep(said, &words, made).is_err() {
                         continue;

@@ -9,6 +9,7 @@ use super::lexicon::longest_phrase;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::resolve::Purpose;
+use crate::editing::called;
 
 /// Before what decides between them.
 #[rustfmt::skip]
@@ -81,7 +82,7 @@ impl Parser<'_> {
             };
             for id in ids {
                 if let Some(found) = self.view.scene.entity(id) {
-                    candidates.push((id, found.label().to_owned()));
+                    candidates.push((id, called(self.view.scene, &found)));
                 }
             }
         }

@@ -1,28 +1,21 @@
-//! The directions of the compass: which way one goes, and where one thing stands from another.
+//! The words for the directions of the compass: which way one goes, and where one thing stands from another.
 
-use std::f64::consts::FRAC_PI_4;
-
-use simworld_core::geometry::{Point2, Vector2, direction, heading};
-use simworld_core::ops::wrap_angle;
+pub(super) use simworld_core::geometry::Compass;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Stands};
 use super::lexicon::{longest, longest_phrase};
 use super::parser::Parser;
 
-/// One of eight directions, in eighths of a turn from east, counter-clockwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Compass(u8);
-
 pub(super) const DIRECTIONS: &[(&[&str], Compass)] = &[
-    (&["east", "eastward", "eastwards"], Compass(0)),
-    (&["north east", "northeast", "northeastward", "northeastwards", "north eastwards"], Compass(1)),
-    (&["north", "northward", "northwards"], Compass(2)),
-    (&["north west", "northwest", "northwestward", "northwestwards", "north westwards"], Compass(3)),
-    (&["west", "westward", "westwards"], Compass(4)),
-    (&["south west", "southwest", "southwestward", "southwestwards", "south westwards"], Compass(5)),
-    (&["south", "southward", "southwards"], Compass(6)),
-    (&["south east", "southeast", "southeastward", "southeastwards", "south eastwards"], Compass(7)),
+    (&["east", "eastward", "eastwards"], Compass::East),
+    (&["north east", "northeast", "northeastward", "northeastwards", "north eastwards"], Compass::NorthEast),
+    (&["north", "northward", "northwards"], Compass::North),
+    (&["north west", "northwest", "northwestward", "northwestwards", "north westwards"], Compass::NorthWest),
+    (&["west", "westward", "westwards"], Compass::West),
+    (&["south west", "southwest", "southwestward", "southwestwards", "south westwards"], Compass::SouthWest),
+    (&["south", "southward", "southwards"], Compass::South),
+    (&["south east", "southeast", "southeastward", "southeastwards", "south eastwards"], Compass::SouthEast),
 ];
 
 /// The names of the eight directions, and where each leads, radians from east.
@@ -33,45 +26,25 @@ pub(crate) fn winds() -> impl Iterator<Item = (&'static str, f64)> {
 
 /// Which of several, by where they stand.
 pub(super) const MOST: &[(&[&str], Compass)] = &[
-    (&["easternmost", "eastern most", "eastmost", "most easterly", "most eastern", "eastern"], Compass(0)),
+    (&["easternmost", "eastern most", "eastmost", "most easterly", "most eastern", "eastern"], Compass::East),
     (
         &["northernmost", "northern most", "northmost", "most northerly", "most northern", "northern"],
-        Compass(2),
+        Compass::North,
     ),
-    (&["westernmost", "western most", "westmost", "most westerly", "most western", "western"], Compass(4)),
+    (&["westernmost", "western most", "westmost", "most westerly", "most western", "western"], Compass::West),
     (
         &["southernmost", "southern most", "southmost", "most southerly", "most southern", "southern"],
-        Compass(6),
+        Compass::South,
     ),
-    (&["northeastern", "north eastern", "northeasternmost", "north easternmost"], Compass(1)),
-    (&["northwestern", "north western", "northwesternmost", "north westernmost"], Compass(3)),
-    (&["southwestern", "south western", "southwesternmost", "south westernmost"], Compass(5)),
-    (&["southeastern", "south eastern", "southeasternmost", "south easternmost"], Compass(7)),
+    (&["northeastern", "north eastern", "northeasternmost", "north easternmost"], Compass::NorthEast),
+    (&["northwestern", "north western", "northwesternmost", "north westernmost"], Compass::NorthWest),
+    (&["southwestern", "south western", "southwesternmost", "south westernmost"], Compass::SouthWest),
+    (&["southeastern", "south eastern", "southeasternmost", "south easternmost"], Compass::SouthEast),
 ];
 
 /// Every word of this table, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     DIRECTIONS.iter().chain(MOST).flat_map(|(words, _)| *words).copied()
-}
-
-impl Compass {
-    /// Radians from east.
-    pub(super) fn heading(self) -> f64 {
-        wrap_angle(f64::from(self.0) * FRAC_PI_4)
-    }
-
-    /// A step of one metre.
-    pub(super) fn step(self) -> Vector2 {
-        direction(self.heading())
-    }
-
-    /// Whether a place lies in this direction from another: within 45° of the four winds, and within 22.5° of those
-    /// between them, as people say it.
-    pub(super) fn holds(self, from: Point2, to: Point2) -> bool {
-        let way = to - from;
-        let width = if self.0.is_multiple_of(2) { FRAC_PI_4 } else { FRAC_PI_4 * 0.5 };
-        way.norm() > 1e-6 && wrap_angle(heading(&way) - self.heading()).abs() <= width
-    }
 }
 
 impl Parser<'_> {
@@ -179,14 +152,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sectors_are_as_wide_as_people_mean_them() {
-        let from = Point2::origin();
-        let east = Compass(0);
-        assert!(east.holds(from, Point2::new(10.0, 9.0)) && !east.holds(from, Point2::new(9.0, 10.0)));
-        let north_west = Compass(3);
-        assert!(
-            north_west.holds(from, Point2::new(-10.0, 9.0))
-                && !north_west.holds(from, Point2::new(-10.0, 2.0))
-        );
+    fn every_direction_has_words_that_are_its_name() {
+        for direction in Compass::ALL {
+            let (words, _) =
+                DIRECTIONS.iter().find(|(_, compass)| *compass == direction).expect("every direction");
+            assert_eq!(Compass::from_name(words[0]), Some(direction));
+            assert_eq!(MOST.iter().filter(|(_, compass)| *compass == direction).count(), 1, "{direction:?}");
+        }
     }
 }

@@ -11,6 +11,7 @@ use super::clause::{Choice, Count, Measure, Reference, Side, Target};
 use super::paint::Paint;
 use super::streets::StreetNames;
 use super::{AmbiguityPolicy, RANGE};
+use crate::editing::called;
 
 /// How far one looks first, m; then farther and farther, until enough is found.
 const FIRST_LOOK: f64 = 30.0;
@@ -160,7 +161,7 @@ impl<'a> View<'a> {
         let meant = candidates.iter().take_while(|(rank, _)| *rank <= reach);
         let label = |(_, id): &Ranked| {
             let entity = self.scene.entity(*id)?;
-            Some((*id, format!("{} at {:.0} m", entity.label(), self.distance(&entity))))
+            Some((*id, format!("{} at {:.0} m", called(self.scene, &entity), self.distance(&entity))))
         };
         let candidates = meant.filter_map(label).collect();
         Err(PlanError::Ambiguous { wanted: reference.text.clone(), candidates })
@@ -406,7 +407,7 @@ impl<'a> View<'a> {
 
     fn is_made_of(&self, entity: &EntityRef<'_>, asset: &str) -> bool {
         let known = || self.scene.assets()?.get(entity.info.asset?);
-        known().is_some_and(|known| known.name == asset)
+        known().is_some_and(|known| known.name == asset || known.has_address() && known.is_called(asset))
     }
 
     pub(super) fn distance(&self, entity: &EntityRef<'_>) -> f64 {
@@ -452,7 +453,7 @@ impl<'a> View<'a> {
         let mut listed: Vec<String> = Vec::new();
         for (distance, id) in found {
             let Some(entity) = self.scene.entity(id) else { continue };
-            let label = entity.label();
+            let label = called(self.scene, &entity);
             if !listed.iter().any(|other| other.starts_with(&format!("{label} "))) {
                 listed.push(format!("{label} {id} at {distance:.0} m"));
             }

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use simworld_agents::scenes::file::{
-    Aside, At, Colour, Compass, Facing, Fault, Loaded, NoPlaces, Pair, PlaceError, PlaceMaker, Problem, Say,
+    Aside, At, Colour, Facing, Fault, Loaded, NoPlaces, Pair, PlaceError, PlaceMaker, Problem, Say,
     SceneFile, SceneFileError, Sky, StreetRow, Thing,
 };
 use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::environment::Environment;
-use simworld_core::geometry::{Point2, Point3, pose_facing, yaw_of};
+use simworld_core::geometry::{Compass, Point2, Point3, pose_facing, yaw_of};
 use simworld_core::ground::{Cover, Ground, GroundData};
 use simworld_core::hash::StateHash;
 use simworld_core::net::StreetPlan;

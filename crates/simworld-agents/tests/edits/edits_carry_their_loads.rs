@@ -22,13 +22,13 @@ fn digest(world: &World) -> StateDigest {
     world.digest()
 }
 
-fn put(world: &mut World, kind: EntityKind, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
+pub(crate) fn put(world: &mut World, kind: EntityKind, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
     let pose = pose_facing(Point3::new(at[0], at[1], at[2]), 0.0);
     let desc = EntityDesc::new(kind, pose, Shape::cuboid(size[0], size[1], size[2]));
     world.spawn(desc.named(name)).expect("a box")
 }
 
-fn prop(world: &mut World, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
+pub(crate) fn prop(world: &mut World, name: &str, size: [f64; 3], at: [f64; 3]) -> EntityId {
     put(world, EntityKind::Prop, name, size, at)
 }
 
@@ -36,13 +36,13 @@ fn at(world: &World, thing: EntityId) -> Point3 {
     world.entity(thing).expect("it is there").position()
 }
 
-fn assert_at(world: &World, thing: EntityId, x: f64, y: f64, z: f64) {
+pub(crate) fn assert_at(world: &World, thing: EntityId, x: f64, y: f64, z: f64) {
     let is = at(world, thing);
     assert!((is - Point3::new(x, y, z)).norm() < 1e-6, "{is} is not ({x}, {y}, {z})");
 }
 
 /// A plain on which stones lie, far from all else: they say where the ground is.
-fn plain() -> World {
+pub(crate) fn plain() -> World {
     let mut world = World::new();
     for x in [0.0, 5.0, 10.0, 15.0, 20.0] {
         prop(&mut world, "stone", [0.5, 0.5, 0.5], [x, -30.0, 0.0]);
@@ -67,7 +67,7 @@ fn laid() -> Laid {
 }
 
 /// Carries an edit out, and sees that it stands well and can be taken back and done again to the bit.
-fn done(world: &mut World, edit: Edit) -> Edited {
+pub(crate) fn done(world: &mut World, edit: Edit) -> Edited {
     let (start, before) = (world.clone(), digest(world));
     let mut editor = SceneEditor::new(Seed(3));
     let edited = editor.edit(&[edit], world).unwrap_or_else(|error| panic!("{error}"));
@@ -84,7 +84,7 @@ fn done(world: &mut World, edit: Edit) -> Edited {
 }
 
 /// Why an edit is refused; it changes nothing.
-fn refused(world: &mut World, edit: Edit) -> String {
+pub(crate) fn refused(world: &mut World, edit: Edit) -> String {
     let before = digest(world);
     let refused = SceneEditor::new(Seed(3)).edit(&[edit], world).expect_err("it is impossible");
     assert!(matches!(refused, EditError::Impossible { .. }), "{refused}");
@@ -92,11 +92,11 @@ fn refused(world: &mut World, edit: Edit) -> String {
     refused.to_string()
 }
 
-fn moved_to(thing: EntityId, x: f64, y: f64) -> Edit {
+pub(crate) fn moved_to(thing: EntityId, x: f64, y: f64) -> Edit {
     Edit::Move { things: vec![thing], stands: vec![Stand::At { point: Point2::new(x, y) }] }
 }
 
-fn scaled(thing: EntityId, factor: f64) -> Edit {
+pub(crate) fn scaled(thing: EntityId, factor: f64) -> Edit {
     Edit::Scale { things: vec![thing], factor }
 }
 
@@ -104,7 +104,7 @@ fn turned(thing: EntityId, angle: f64) -> Edit {
     Edit::Rotate { things: vec![thing], angle }
 }
 
-fn removed(things: &[EntityId]) -> Edit {
+pub(crate) fn removed(things: &[EntityId]) -> Edit {
     Edit::Remove { things: things.to_vec() }
 }
 

@@ -14,9 +14,11 @@ mod edits_can_be_answered;
 mod edits_carry_their_loads;
 mod edits_common;
 mod edits_keep_land_use;
+mod edits_let_things_fall;
 #[path = "../shared/model_server/mod.rs"]
 mod model_server;
 mod models_edit_scenes;
+mod models_edit_through_llama_cpp;
 mod scenes_are_read;
 #[path = "../shared/tables.rs"]
 mod tables;

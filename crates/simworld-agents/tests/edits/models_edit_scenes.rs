@@ -2,19 +2,17 @@
 #![cfg(feature = "thought")]
 
 use crate::city::City;
-use crate::model_server::ModelServer;
-use crate::model_server::watch::{Watch, as_asked, make_easy};
 use crate::thought_common::{answering, text};
 use simworld_agents::editing::{Difference, Edit, EditError, ReadBy, SceneEditor, Spacing, faults};
-use simworld_agents::model::{ChatModel, ChatRequest};
-use simworld_agents::thought::{ModelReader, ModelReasoner, Prompts, Question, ReasonError, Reasoner};
+use simworld_agents::model::ChatModel;
+use simworld_agents::thought::{ModelReader, Prompts, Question, ReasonError, Reasoner};
 use simworld_core::geometry::{Point2, Point3, heading, pose_facing, yaw_of};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape};
 use simworld_core::seed::Seed;
 use std::sync::{Arc, Mutex};
 
 /// What no grammar reads.
-const STRANGE: &str = "the square feels bare, do what a good host would do about it, but gently";
+pub(crate) const STRANGE: &str = "the square feels bare, do what a good host would do about it, but gently";
 
 fn editor(city: &City, model: Box<dyn ChatModel>) -> SceneEditor {
     SceneEditor::new(Seed(7)).looking_as(city.me, &city.world).with_reader(ModelReader::new(model))
@@ -232,51 +230,4 @@ fn what_the_words_may_mean_comes_first_and_keeps_its_budget() {
     assert!(first.starts_with(&format!("{obelisk} prop \"Obelisk of Thoth\"")), "{first}");
     assert!(question.user.contains("motorcycle"));
     assert!(question.schema.to_string().contains(&format!("\"{obelisk}\"")));
-}
-
-/// Whether the model behind the server edits the scene; if it does not, the scene stays as it was.
-fn is_edited(server: &ModelServer, city: &City, seed: i64, change: fn(&mut ChatRequest)) -> bool {
-    let mut world = city.world.clone();
-    let watch = Watch::default();
-    let reasoner = ModelReasoner::new(watch.model(server, change))
-        .with_temperature(1.0, Some(seed))
-        .with_max_tokens(400);
-    let reader =
-        ModelReader::with_reasoner(Box::new(reasoner), Arc::new(Prompts::standard())).with_budget(120);
-    let mut editor = SceneEditor::new(Seed(7)).looking_as(city.me, &world).with_reader(reader);
-    let done = editor.say(STRANGE, &mut world);
-    let (questions, repairs) = watch.settled();
-    assert!(questions == 1 && (watch.faulty()..=1).contains(&repairs), "{repairs} repairs");
-    let difference = Difference::between(&city.world, &world);
-    match done {
-        Ok(done) => {
-            assert_eq!(done.read_by, ReadBy::Reader);
-            for thing in difference.added.iter().chain(&difference.moved) {
-                assert!(world.entity(*thing).is_some());
-                assert_eq!(faults(&world, *thing), [], "{:?}", done.edits);
-            }
-            true
-        }
-        Err(error) => {
-            assert!(!error.to_string().is_empty());
-            assert!(difference.is_empty(), "{error}");
-            if let EditError::Reader { .. } = error {
-                assert_eq!(repairs, 1, "one repair was tried: {error}");
-            }
-            false
-        }
-    }
-}
-
-#[test]
-fn a_real_server_answers_with_valid_edits_or_typed_errors() {
-    let Some(server) = ModelServer::start() else { return };
-    let city = City::read("quarter");
-    let rounds = if std::env::var_os("SIMWORLD_SOAK").is_some() { 60 } else { 3 };
-    let count = |change: fn(&mut ChatRequest), rounds: i64| {
-        (0..rounds).filter(|seed| is_edited(&server, &city, *seed, change)).count() as i64
-    };
-    let (by_schema, easily) = (count(as_asked, rounds), count(make_easy, 3 * rounds));
-    println!("{by_schema} edits of {rounds}, {easily} of {} by what is easy; else typed errors", 3 * rounds);
-    assert!(easily > 0, "what is easy of the schema leads to edits");
 }

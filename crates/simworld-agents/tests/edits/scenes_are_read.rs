@@ -11,6 +11,7 @@ use simworld_agents::model::ChatRequest;
 use simworld_agents::scenes::{GrammarSceneReader, SceneError, SceneReader, SceneReading};
 use simworld_agents::thought::{ModelReasoner, ModelSceneReader, Prompts, scene_answer};
 use simworld_core::environment::{Environment, Sun};
+use simworld_core::geometry::Compass;
 use simworld_core::scene::Place;
 use simworld_core::spec::{
     Amount, DistrictKind, DistrictWish, FeatureWish, Height, Pattern, SceneKind, SceneSpec, SiteWish, Water,
@@ -239,8 +240,11 @@ fn every_value() -> Vec<SceneSpec> {
         spec.features.parks = vec!["Rose Garden".to_owned()];
         spec.features.landmarks = BTreeMap::from([("cathedral".to_owned(), 2), ("lighthouse".to_owned(), 8)]);
         let by = Some("park".to_owned());
-        spec.features.sites =
-            vec![SiteWish { what: "Fish Market".to_owned(), at: Whereabouts::NorthEast, by }];
+        spec.features.sites = vec![SiteWish {
+            what: "Fish Market".to_owned(),
+            at: Whereabouts::Towards(Compass::NorthEast),
+            by,
+        }];
         spec.environment.sun = Sun::at_hour(7.0);
     });
     specs

@@ -10,7 +10,7 @@ const SHORE: f64 = 6.0;
 const BASIN: f64 = 80.0;
 const RIVER: f64 = 24.0;
 /// The ground's top lies so far below a sidewalk's, and open ground a hair above it, m.
-const GROUND: f64 = -0.03;
+pub(super) const GROUND: f64 = -0.03;
 const LAYER: f64 = 0.02;
 
 /// A piece of ground with a use and a name.

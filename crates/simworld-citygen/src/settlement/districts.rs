@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, PI};
 
+use simworld_core::geometry::Compass;
 use simworld_core::seed::Seed;
 use simworld_core::spec::{DistrictKind, FeatureWish, Whereabouts};
 
@@ -23,7 +24,7 @@ pub(super) fn placed(wish: &FeatureWish, extent: Extent, seed: Seed) -> Vec<Dist
         (None, Whereabouts::Middle) => 0,
         (Some(_), _) => 1,
         (None, Whereabouts::Outskirts) => 4,
-        (None, part) if is_between(*part) => 2,
+        (None, Whereabouts::Towards(side)) if side.is_between() => 2,
         _ => 3,
     };
     let mut order: Vec<usize> = (0..parts.len()).collect();
@@ -36,19 +37,15 @@ pub(super) fn placed(wish: &FeatureWish, extent: Extent, seed: Seed) -> Vec<Dist
     order.into_iter().map(of).collect()
 }
 
-fn is_between(part: Whereabouts) -> bool {
-    use Whereabouts::{NorthEast, NorthWest, SouthEast, SouthWest};
-    matches!(part, NorthEast | NorthWest | SouthEast | SouthWest)
-}
-
 /// Where each district lies: where nothing is said, what a middle is for in the middle if that is free, everything else in a
 /// direction of which nobody spoke.
 fn parts(wish: &FeatureWish, seed: Seed) -> Vec<Whereabouts> {
-    use Whereabouts::{East, Middle, North, NorthEast, NorthWest, South, SouthEast, SouthWest, West};
+    use Compass::{East, North, NorthEast, NorthWest, South, SouthEast, SouthWest, West};
     let mut free = vec![East, North, West, South];
     let turns = seed.stream("citygen/settlement/districts").rng().below(free.len());
     free.rotate_left(turns);
     free.extend([NorthEast, SouthWest, NorthWest, SouthEast]);
+    let mut free: Vec<Whereabouts> = free.into_iter().map(Whereabouts::Towards).collect();
     let mut parts: Vec<Whereabouts> = wish.districts.iter().map(|district| district.at).collect();
     free.retain(|part| !parts.contains(part));
     let mut free = free.into_iter();
@@ -57,8 +54,8 @@ fn parts(wish: &FeatureWish, seed: Seed) -> Vec<Whereabouts> {
             continue;
         }
         let is_central = !matches!(district.kind, DistrictKind::Industrial | DistrictKind::Residential);
-        parts[index] = if is_central && !parts.contains(&Middle) {
-            Middle
+        parts[index] = if is_central && !parts.contains(&Whereabouts::Middle) {
+            Whereabouts::Middle
         } else {
             free.next().unwrap_or(Whereabouts::Outskirts)
         };
@@ -71,15 +68,15 @@ fn form(extent: Extent, part: Whereabouts, shore: Option<f64>) -> DistrictForm {
     if let Some(heading) = shore {
         return DistrictForm::Side { center, heading, beyond: SHORE * radius };
     }
-    match part.heading() {
-        Some(heading) => {
-            let half_angle = if is_between(part) { FRAC_PI_8 } else { FRAC_PI_4 };
-            DistrictForm::Sector { center, heading, half_angle, beyond: ASIDE * radius }
+    match part {
+        Whereabouts::Towards(side) => {
+            let half_angle = if side.is_between() { FRAC_PI_8 } else { FRAC_PI_4 };
+            DistrictForm::Sector { center, heading: side.heading(), half_angle, beyond: ASIDE * radius }
         }
-        None if part == Whereabouts::Outskirts => {
+        Whereabouts::Outskirts => {
             DistrictForm::Sector { center, heading: 0.0, half_angle: PI, beyond: OUTSKIRTS * radius }
         }
-        None => DistrictForm::Disc { center, radius: MIDDLE * radius },
+        Whereabouts::Anywhere | Whereabouts::Middle => DistrictForm::Disc { center, radius: MIDDLE * radius },
     }
 }
 
@@ -98,7 +95,7 @@ mod tests {
     fn the_narrower_comes_first_and_what_is_open_finds_a_free_part() {
         let districts = vec![
             wish(DistrictKind::Green, Whereabouts::Outskirts),
-            wish(DistrictKind::Residential, Whereabouts::North),
+            wish(DistrictKind::Residential, Whereabouts::Towards(Compass::North)),
             wish(DistrictKind::Business, Whereabouts::Anywhere),
             wish(DistrictKind::Industrial, Whereabouts::Anywhere),
             DistrictWish {

@@ -63,6 +63,12 @@ pub enum SettlementRemark {
         /// Of its length, width and height.
         percent: u32,
     },
+    /// A landmark that stands beyond the outermost streets.
+    #[error("{name} stands outside the streets: no block between them holds it")]
+    Outside {
+        /// What it is called.
+        name: String,
+    },
     /// Something that found no room in the part of the place that was named.
     #[error("{name} is not in that part of the place ({part}): there is no room for it there")]
     Elsewhere {

@@ -43,11 +43,7 @@ impl Extent {
             Whereabouts::Anywhere => 0.0,
             Whereabouts::Middle => way.norm(),
             Whereabouts::Outskirts => (way.norm() - EDGE * self.radius).abs(),
-            towards => {
-                let target =
-                    towards.heading().map_or(way, |heading| direction(heading) * self.radius * ASIDE);
-                (way - target).norm()
-            }
+            Whereabouts::Towards(side) => (way - side.step() * self.radius * ASIDE).norm(),
         }
     }
 
@@ -58,7 +54,7 @@ impl Extent {
             Whereabouts::Anywhere => true,
             Whereabouts::Middle => way.norm() <= MIDDLE * self.radius,
             Whereabouts::Outskirts => way.norm() >= OUTSKIRTS * self.radius,
-            towards => towards.heading().is_none_or(|to| wrap_angle(heading(&way) - to).abs() <= WITHIN),
+            Whereabouts::Towards(side) => wrap_angle(heading(&way) - side.heading()).abs() <= WITHIN,
         }
     }
 
@@ -84,15 +80,23 @@ pub(super) fn side_of(waters: &[Water], name: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::geometry::Compass;
+
     use super::*;
 
     #[test]
     fn parts_lie_where_they_are_named() {
         let extent = Extent { heart: Point2::new(100.0, 0.0), radius: 200.0 };
         let east = Point2::new(250.0, 20.0);
-        assert!(extent.holds(Whereabouts::East, east) && !extent.holds(Whereabouts::West, east));
+        assert!(
+            extent.holds(Whereabouts::Towards(Compass::East), east)
+                && !extent.holds(Whereabouts::Towards(Compass::West), east)
+        );
         assert!(extent.holds(Whereabouts::Outskirts, east) && !extent.holds(Whereabouts::Middle, east));
-        assert!(extent.away(Whereabouts::East, east) < extent.away(Whereabouts::North, east));
+        assert!(
+            extent.away(Whereabouts::Towards(Compass::East), east)
+                < extent.away(Whereabouts::Towards(Compass::North), east)
+        );
         assert!(extent.way_to_side(0.0, east) < extent.way_to_side(PI, east));
         assert_eq!(side_of(&[Water::Lake, Water::River], "river"), Some(0.0));
         assert_eq!(side_of(&[Water::Lake], "harbour"), None);

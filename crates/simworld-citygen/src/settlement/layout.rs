@@ -10,7 +10,7 @@ use simworld_core::spec::{FeatureWish, SiteWish};
 use super::aim::Aim;
 use super::areas::{Area, shore};
 use super::extent::Extent;
-use super::landmarks::{Landmark, ground_box, name_of};
+use super::landmarks::{Landmark, ground_box, lies_within, name_of};
 use super::{SettlementError, SettlementRemark};
 use crate::City;
 use crate::doors::{FARTHEST_DOOR, nearest_of};
@@ -26,8 +26,18 @@ const STEP: f64 = 8.0;
 const SCALES: [f64; 4] = [1.0, 0.8, 0.65, 0.5];
 /// A house that has to go is as bad as so many metres off, m.
 const HOUSE: f64 = 6.0;
-/// Streets farther than this lead nowhere near, m.
+/// Streets farther than this lead nowhere near, m; where no block is large enough that is meant of the front of a landmark.
 const REACH: f64 = 60.0;
+const FRONT: f64 = 40.0;
+
+/// Where there may be ground for landmarks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Grounds {
+    /// Between the streets.
+    Within,
+    /// For those that no block holds beyond the outermost streets too.
+    Beyond,
+}
 
 /// What was laid out.
 #[derive(Debug, Default)]
@@ -57,11 +67,14 @@ enum What<'a> {
 pub(super) fn laid_out(
     city: &mut City,
     wish: &FeatureWish,
-    extent: Extent,
+    (extent, grounds): (Extent, Grounds),
     library: &Catalogue,
 ) -> Result<Laid, SettlementError> {
     let mut pending = items(wish, library)?;
-    let mut layout = Layout { city: &mut *city, wish, extent, taken: Vec::new(), laid: Laid::default() };
+    let shores: Vec<Area> = shores(wish, &city.network).collect();
+    let water = shores.iter().map(|area| ground_box(area.middle, area.facing, area.size)).collect();
+    let (taken, laid) = (Vec::new(), Laid::default());
+    let mut layout = Layout { city: &mut *city, wish, extent, grounds, taken, water, laid };
     while !pending.is_empty() {
         // What is beside another comes after it.
         let waits = |item: &Item<'_>| {
@@ -73,10 +86,13 @@ pub(super) fn laid_out(
         layout.lay(&item)?;
     }
     let Layout { mut laid, .. } = layout;
-    for (rank, water) in wish.waters.iter().enumerate() {
-        laid.areas.extend(shore(&city.network, *water, rank));
-    }
+    laid.areas.extend(shores);
     Ok(laid)
+}
+
+/// The waters, which lie beside the streets.
+fn shores(wish: &FeatureWish, network: &RoadNetwork) -> impl Iterator<Item = Area> {
+    wish.waters.iter().enumerate().filter_map(move |(rank, water)| shore(network, *water, rank))
 }
 
 /// Landmarks, squares and parks, each with its site if it has one.
@@ -105,7 +121,10 @@ struct Layout<'a> {
     city: &'a mut City,
     wish: &'a FeatureWish,
     extent: Extent,
+    grounds: Grounds,
     taken: Vec<Obb>,
+    /// Where water will be.
+    water: Vec<Obb>,
     laid: Laid,
 }
 
@@ -142,20 +161,27 @@ impl Layout<'_> {
         aim: &Aim,
     ) -> Option<Point2> {
         let size = Vector2::new(along, across);
-        let (middle, facing) = self.find(size, false, aim)?;
+        let (middle, facing) = self.find(size, false, aim, Grounds::Within)?;
         // A park keeps its trees, and a square nothing.
         self.clear(ground_box(middle, facing, size), used_as == "park");
         self.laid.areas.push(Area { name: item.name.clone(), used_as, middle, size, facing });
         Some(middle)
     }
 
-    /// Puts a landmark somewhere, as large as there is room for, and says where.
+    /// Puts a landmark somewhere, as large as there is room for, and says where: between the streets rather than beyond them.
     fn raise(&mut self, item: &Item<'_>, asset: &Asset, aim: &Aim) -> Option<Point2> {
-        let found = SCALES.into_iter().find_map(|scale| {
-            let size = asset.footprint() * scale;
-            self.find(size, true, aim).map(|(middle, facing)| (scale, size, middle, facing))
-        });
-        let (scale, size, middle, facing) = found?;
+        let beyond = (self.grounds == Grounds::Beyond).then_some(Grounds::Beyond);
+        let tries = std::iter::once(Grounds::Within).chain(beyond);
+        let found =
+            tries.flat_map(|grounds| SCALES.map(|scale| (grounds, scale))).find_map(|(grounds, scale)| {
+                let size = asset.footprint() * scale;
+                let (middle, facing) = self.find(size, true, aim, grounds)?;
+                Some((grounds, scale, size, middle, facing))
+            });
+        let (grounds, scale, size, middle, facing) = found?;
+        if grounds == Grounds::Beyond && reaches_out(&self.city.network, &ground_box(middle, facing, size)) {
+            self.laid.remarks.push(SettlementRemark::Outside { name: item.name.clone() });
+        }
         if scale < 1.0 {
             let percent = (scale * 100.0).round() as u32;
             self.laid.remarks.push(SettlementRemark::Smaller { name: item.name.clone(), percent });
@@ -187,9 +213,14 @@ impl Layout<'_> {
 
     /// The ground that is best by where it lies and by how little has to go: its middle, and where it looks. With a front it looks to
     /// the street, and else along it or across.
-    fn find(&self, size: Vector2, has_front: bool, aim: &Aim) -> Option<(Point2, f64)> {
+    fn find(&self, size: Vector2, has_front: bool, aim: &Aim, grounds: Grounds) -> Option<(Point2, f64)> {
         let network = &self.city.network;
         let (low, high) = network.bounds()?;
+        let (margin, reach) = match grounds {
+            Grounds::Within => (0.0, REACH),
+            Grounds::Beyond => (size.max(), size.x * 0.5 + FRONT),
+        };
+        let (low, high) = (low - Vector2::repeat(margin), high + Vector2::repeat(margin));
         let steps = ((high - low) / STEP).map(f64::ceil);
         let mut best: Option<(f64, Point2, f64)> = None;
         for row in 0..=steps.y as u32 {
@@ -199,7 +230,7 @@ impl Layout<'_> {
                 if best.is_some_and(|(least, ..)| cost >= least) {
                     continue;
                 }
-                let Some((along, foot)) = street_beside(network, at) else { continue };
+                let Some((along, foot)) = street_beside(network, at, reach) else { continue };
                 let across = along + std::f64::consts::FRAC_PI_2;
                 let turned =
                     if (foot - at).dot(&direction(across)) < 0.0 { std::f64::consts::PI } else { 0.0 };
@@ -210,13 +241,19 @@ impl Layout<'_> {
                     let gone = houses.filter(|one| one.obb().footprints_overlap(&taken)).count();
                     let cost = cost + HOUSE * gone as f64;
                     let is_better = best.is_none_or(|(least, ..)| cost < least);
-                    if is_better && self.is_open(&taken) {
+                    let is_dry = grounds == Grounds::Within || !self.is_wet(&taken);
+                    if is_better && is_dry && self.is_open(&taken) {
                         best = Some((cost, at, facing));
                     }
                 }
             }
         }
         best.map(|(_, at, facing)| (at, facing))
+    }
+
+    /// Whether water will lie there, which is beside the streets.
+    fn is_wet(&self, taken: &Obb) -> bool {
+        self.water.iter().any(|water| water.footprints_overlap(taken))
     }
 
     /// Whether no street and nothing else that was laid out lies there.
@@ -249,15 +286,20 @@ impl Layout<'_> {
     }
 }
 
+/// Whether something lies beyond the outermost streets, at least in part.
+fn reaches_out(network: &RoadNetwork, taken: &Obb) -> bool {
+    network.bounds().is_some_and(|(low, high)| !lies_within(taken, low, high))
+}
+
 /// The direction of the nearest street and its nearest point, if one is near enough to lead there.
-fn street_beside(network: &RoadNetwork, at: Point2) -> Option<(f64, Point2)> {
+fn street_beside(network: &RoadNetwork, at: Point2, reach: f64) -> Option<(f64, Point2)> {
     let near = network.roads.iter().filter_map(|road| {
         let near = polyline::closest(&road.centerline, &at)?;
         let (foot, along) = polyline::at(&road.centerline, near.station);
         Some((near.distance, along, foot))
     });
     let (distance, along, foot) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (distance <= REACH).then_some((along, foot))
+    (distance <= reach).then_some((along, foot))
 }
 
 /// What is otherwise than a site says.

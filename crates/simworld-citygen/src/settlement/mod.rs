@@ -24,6 +24,7 @@ use crate::building::Building;
 use crate::landscape::present_or_new;
 use crate::{City, CityConfig, CityEntities, Style};
 use extent::{Extent, middle_of};
+use layout::Grounds;
 
 /// Houses that a piece of street has, on the safe side.
 const HOUSES: u32 = 3;
@@ -87,7 +88,9 @@ impl Settlement {
         let mut most = 0;
         for rank in 0..TRIES {
             let may_grow = spec.streets.count.is_none() && rank + 1 < TRIES_FOR_GROUND;
-            match Self::grown(spec, count, wanted, seed) {
+            // What a block of some more streets may hold is not put outside of them.
+            let grounds = if may_grow { Grounds::Within } else { Grounds::Beyond };
+            match Self::grown(spec, (count, wanted), grounds, seed) {
                 Ok(Ok(place)) => return Ok(place),
                 Ok(Err(houses)) => most = houses,
                 Err(SettlementError::NoGround { .. }) if may_grow => {}
@@ -101,8 +104,8 @@ impl Settlement {
     /// The place on so many pieces of street, or how many houses it has if these are fewer than are wanted.
     fn grown(
         spec: &SceneSpec,
-        streets: u32,
-        wanted: u32,
+        (streets, wanted): (u32, u32),
+        grounds: Grounds,
         seed: Seed,
     ) -> Result<Result<Self, usize>, SettlementError> {
         let mut config = config_of(spec, streets);
@@ -115,7 +118,7 @@ impl Settlement {
             extent = Extent::of(&city.buildings, spec.buildings.count);
         }
         city.provenance.title.clone_from(&spec.title);
-        let mut laid = layout::laid_out(&mut city, &spec.features, extent, &Catalogue::library())?;
+        let mut laid = layout::laid_out(&mut city, &spec.features, (extent, grounds), &Catalogue::library())?;
         if city.buildings.len() < wanted as usize {
             return Ok(Err(city.buildings.len()));
         }
@@ -139,6 +142,9 @@ impl Settlement {
         for landmark in &self.landmarks {
             let missing = || SettlementError::Landmark { name: landmark.asset.clone() };
             let asset = library.find(&landmark.asset).and_then(|id| library.get(id)).ok_or_else(missing)?;
+            if let Some(ground) = landmark.ground(asset, self.city.network.bounds()) {
+                entities.surfaces.push(world.spawn(ground)?);
+            }
             let id = present_or_new(asset.clone(), world)?;
             entities.buildings.push(world.spawn(landmark.desc(asset, id))?);
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use simworld_citygen::landscape::{FOREST, Landscape, LandscapeError, TRAIL_GRADE};
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::{Compass, Point2, Vector2};
 use simworld_core::ground::Cover;
 use simworld_core::net::{Route, RouteScratch, WaypointConfig, WaypointGraph, polyline};
 use simworld_core::scene::{EntityKind, Place, Scene, World};
@@ -270,11 +270,11 @@ fn what_such_a_place_does_not_have_is_refused() {
     unsuited(refused(SceneKind::Island, |spec| spec.buildings.height = Height::High));
     unsuited(refused(SceneKind::Countryside, |spec| spec.streets.parked = Amount::Many));
     unsuited(refused(SceneKind::Countryside, |spec| {
-        let (kind, at) = (DistrictKind::Industrial, Whereabouts::East);
+        let (kind, at) = (DistrictKind::Industrial, Whereabouts::Towards(Compass::East));
         spec.features.districts.push(DistrictWish { kind, at, by: None });
     }));
     unsuited(refused(SceneKind::Island, |spec| {
-        let (what, at) = ("lighthouse".to_owned(), Whereabouts::North);
+        let (what, at) = ("lighthouse".to_owned(), Whereabouts::Towards(Compass::North));
         spec.features.sites.push(SiteWish { what, at, by: None });
     }));
     let error = refused(SceneKind::Island, |spec| spec.buildings.count = Some(700));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use simworld_citygen::settlement::{Settlement, SettlementError, SettlementRemark};
-use simworld_core::geometry::{Aabb, Point2};
+use simworld_core::geometry::{Aabb, Compass, Point2};
 use simworld_core::scene::{EntityKind, Place, Relation, Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::spec::{
@@ -155,12 +155,12 @@ fn districts_are_seen_in_what_houses_are_used_for() {
     asked.features.waters = vec![Water::River];
     asked.features.districts = vec![
         district(DistrictKind::OldTown, Whereabouts::Middle),
-        district(DistrictKind::Industrial, Whereabouts::East),
+        district(DistrictKind::Industrial, Whereabouts::Towards(Compass::East)),
         DistrictWish {
             by: Some("river".to_owned()),
             ..district(DistrictKind::Residential, Whereabouts::Anywhere)
         },
-        district(DistrictKind::Business, Whereabouts::North),
+        district(DistrictKind::Business, Whereabouts::Towards(Compass::North)),
     ];
     let mut sums = [[0.0; 2]; 3];
     let seeds = [3, 4, 5];
@@ -203,8 +203,8 @@ fn landmarks_stand_where_they_were_asked_for() {
     asked.features.squares = vec!["Market Square".to_owned()];
     asked.features.sites = vec![
         site("hospital", Whereabouts::Anywhere, Some("train_station")),
-        site("museum", Whereabouts::North, None),
-        site("museum", Whereabouts::South, None),
+        site("museum", Whereabouts::Towards(Compass::North), None),
+        site("museum", Whereabouts::Towards(Compass::South), None),
         site("lighthouse", Whereabouts::Anywhere, Some("harbour")),
         site("church", Whereabouts::Middle, None),
         site("Market Square", Whereabouts::Anywhere, Some("cathedral")),
@@ -245,6 +245,45 @@ fn landmarks_stand_where_they_were_asked_for() {
         assert!(is_told("Market Square") || apart < 90.0, "{seed}: {apart} m");
         stand_free(&place, &format!("{seed}"));
     }
+}
+
+#[test]
+fn what_no_block_holds_stands_outside_the_streets_and_is_told() {
+    let mut told = 0;
+    for (seed, water) in [(1, None), (2, Some(Water::Harbour)), (3, None)] {
+        let mut asked = spec(40);
+        asked.features.waters.extend(water);
+        asked.features.landmarks = BTreeMap::from([("stadium".to_owned(), 1)]);
+        let place = Settlement::build(&asked, Seed(seed)).unwrap();
+        assert_eq!(place, Settlement::build(&asked, Seed(seed)).unwrap(), "the same bits");
+        assert_eq!(place.city.buildings.len(), 40);
+        let [stadium] = &place.landmarks[..] else { panic!("{:?}", place.landmarks) };
+        assert_eq!((stadium.asset.as_str(), stadium.name.as_str()), ("stadium", "Stadium"));
+        let outside = SettlementRemark::Outside { name: "Stadium".to_owned() };
+        told += usize::from(place.remarks.contains(&outside));
+        assert!(stadium.access.is_some(), "a street leads there");
+        stand_free(&place, &format!("{seed}"));
+
+        let mut world = World::new();
+        let entities = place.populate(&mut world).unwrap();
+        let built = world.entity(*entities.buildings.last().unwrap()).unwrap();
+        let grounds: Vec<_> = world.iter().filter(|entity| entity.kind == EntityKind::Ground).collect();
+        let water =
+            |ground: &simworld_core::scene::EntityRef<'_>| ground.info.attributes.contains_key("area");
+        for corner in built.obb().footprint() {
+            let is_under = |ground: &simworld_core::scene::EntityRef<'_>| {
+                ground.info.shape.planar_distance(ground.pose, &corner) < 1e-6
+            };
+            assert!(
+                grounds.iter().any(|ground| !water(ground) && is_under(ground)),
+                "{corner} has no ground"
+            );
+        }
+        let wet = grounds.iter().filter(|ground| water(ground));
+        assert!(wet.clone().all(|water| !water.obb().footprints_overlap(&built.obb())), "it stands in water");
+        assert!(wet.count() >= asked.features.waters.len());
+    }
+    assert!(told > 0, "a block held it each time");
 }
 
 /// Whether every landmark stands on no street and in no house.

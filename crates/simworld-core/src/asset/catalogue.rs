@@ -29,6 +29,8 @@ use crate::id::AssetId;
 pub struct Catalogue {
     assets: Vec<Asset>,
     names: BTreeMap<String, AssetId>,
+    /// Those whose name has an address, by their noun.
+    nouns: BTreeMap<String, Vec<AssetId>>,
 }
 
 impl Catalogue {
@@ -70,6 +72,9 @@ impl Catalogue {
         }
         let id = AssetId::from_index(self.assets.len());
         self.names.insert(asset.name.clone(), id);
+        if let Some(noun) = asset.noun() {
+            self.nouns.entry(noun.to_owned()).or_default().push(id);
+        }
         self.assets.push(asset);
         Ok(id)
     }
@@ -82,6 +87,12 @@ impl Catalogue {
     /// The id of a name.
     pub fn find(&self, name: &str) -> Option<AssetId> {
         self.names.get(name).copied()
+    }
+
+    /// The assets that were made for words with this [noun](Asset::noun), in the order in which they were added; which of them answers to
+    /// other words too [`Asset::is_called`] says.
+    pub fn with_noun(&self, noun: &str) -> &[AssetId] {
+        self.nouns.get(noun).map_or(&[][..], Vec::as_slice)
     }
 
     /// The id of a class of the Python release, such as `BP_Building_07_C` or `BP_Couch_C`.
@@ -169,6 +180,19 @@ mod tests {
         assert_eq!(catalogue.add(crate_of(1.0)), Ok(id));
         assert!(matches!(catalogue.add(crate_of(2.0)), Err(AssetError::Taken { .. })));
         assert_eq!(catalogue.len(), 1);
+    }
+
+    #[test]
+    fn what_was_made_is_found_by_its_noun() {
+        let mut catalogue = Catalogue::standard();
+        let made = |name: &str, size| Asset { name: name.to_owned(), ..crate_of(size) };
+        let one = catalogue.add(made("obelisk_00ab12cd34ef", 1.0)).unwrap();
+        let other = catalogue.add(made("a_stone_obelisk_with_steps_1a2b3c4d", 2.0)).unwrap();
+        assert_eq!(catalogue.add(made("obelisk_00ab12cd34ef", 1.0)), Ok(one));
+        assert_eq!(catalogue.with_noun("obelisk"), [one, other]);
+        assert!(catalogue.with_noun("steps").is_empty() && catalogue.with_noun("bench").is_empty());
+        let text = serde_json::to_string(&catalogue).unwrap();
+        assert_eq!(serde_json::from_str::<Catalogue>(&text).unwrap().with_noun("obelisk"), [one, other]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! renderer as it draws their kind, and met as their collider. [`sculpt`] makes models from solids.
 
 mod affordance;
+mod called;
 mod catalogue;
 mod digest;
 mod finish;

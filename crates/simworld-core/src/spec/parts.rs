@@ -1,14 +1,12 @@
 //! Where in a place something is to be: its districts, and the houses, landmarks and squares of which it is said where they are.
 
-use std::f64::consts::FRAC_PI_4;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use serde::{Deserialize, Serialize};
+use crate::geometry::Compass;
 
-use crate::ops::wrap_angle;
-
-/// A part of a place, seen from its middle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+/// A part of a place, seen from its middle. In files it is its [name](Whereabouts::as_str).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Whereabouts {
     /// Not said: who makes the place chooses.
     #[default]
@@ -17,39 +15,34 @@ pub enum Whereabouts {
     Middle,
     /// The edge, all round.
     Outskirts,
-    /// The east.
-    East,
-    /// The north-east.
-    NorthEast,
-    /// The north.
-    North,
-    /// The north-west.
-    NorthWest,
-    /// The west.
-    West,
-    /// The south-west.
-    SouthWest,
-    /// The south.
-    South,
-    /// The south-east.
-    SouthEast,
+    /// What lies in a direction from the middle.
+    Towards(Compass),
 }
 
 impl Whereabouts {
     /// Every part, the directions counter-clockwise from east.
-    pub const ALL: [Self; 11] = [
-        Self::Anywhere,
-        Self::Middle,
-        Self::Outskirts,
-        Self::East,
-        Self::NorthEast,
-        Self::North,
-        Self::NorthWest,
-        Self::West,
-        Self::SouthWest,
-        Self::South,
-        Self::SouthEast,
-    ];
+    pub const ALL: [Self; 11] = {
+        let mut all = [Self::Anywhere; 11];
+        all[1] = Self::Middle;
+        all[2] = Self::Outskirts;
+        let mut at = 0;
+        while at < Compass::ALL.len() {
+            all[3 + at] = Self::Towards(Compass::ALL[at]);
+            at += 1;
+        }
+        all
+    };
+
+    /// The names of all of them.
+    const NAMES: [&'static str; 11] = {
+        let mut names = [""; 11];
+        let mut at = 0;
+        while at < names.len() {
+            names[at] = Self::ALL[at].as_str();
+            at += 1;
+        }
+        names
+    };
 
     /// The name in files.
     pub const fn as_str(self) -> &'static str {
@@ -57,14 +50,7 @@ impl Whereabouts {
             Self::Anywhere => "anywhere",
             Self::Middle => "middle",
             Self::Outskirts => "outskirts",
-            Self::East => "east",
-            Self::NorthEast => "north_east",
-            Self::North => "north",
-            Self::NorthWest => "north_west",
-            Self::West => "west",
-            Self::SouthWest => "south_west",
-            Self::South => "south",
-            Self::SouthEast => "south_east",
+            Self::Towards(direction) => direction.as_str(),
         }
     }
 
@@ -75,18 +61,23 @@ impl Whereabouts {
 
     /// In which direction it lies from the middle, radians from east; none of those that lie in no direction.
     pub fn heading(self) -> Option<f64> {
-        let eighth: u8 = match self {
-            Self::Anywhere | Self::Middle | Self::Outskirts => return None,
-            Self::East => 0,
-            Self::NorthEast => 1,
-            Self::North => 2,
-            Self::NorthWest => 3,
-            Self::West => 4,
-            Self::SouthWest => 5,
-            Self::South => 6,
-            Self::SouthEast => 7,
-        };
-        Some(wrap_angle(f64::from(eighth) * FRAC_PI_4))
+        match self {
+            Self::Anywhere | Self::Middle | Self::Outskirts => None,
+            Self::Towards(direction) => Some(direction.heading()),
+        }
+    }
+}
+
+impl Serialize for Whereabouts {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.as_str())
+    }
+}
+
+impl<'de> Deserialize<'de> for Whereabouts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::from_name(&name).ok_or_else(|| D::Error::unknown_variant(&name, &Self::NAMES))
     }
 }
 
@@ -178,8 +169,13 @@ mod tests {
     fn names_are_those_of_serde() {
         for part in Whereabouts::ALL {
             assert_eq!(serde_json::to_string(&part).unwrap(), format!("{:?}", part.as_str()));
+            assert_eq!(serde_json::from_str::<Whereabouts>(&format!("{:?}", part.as_str())).unwrap(), part);
             assert_eq!(Whereabouts::from_name(part.as_str()), Some(part));
         }
+        let directions = Compass::ALL.map(Whereabouts::Towards);
+        assert_eq!(Whereabouts::ALL[3..], directions, "each direction once, and in order");
+        let unknown = serde_json::from_str::<Whereabouts>("\"uphill\"").unwrap_err().to_string();
+        assert!(unknown.contains("uphill") && unknown.contains("north_east"), "{unknown}");
         for kind in DistrictKind::ALL {
             assert_eq!(serde_json::to_string(&kind).unwrap(), format!("{:?}", kind.as_str()));
             assert_eq!(DistrictKind::from_name(kind.as_str()), Some(kind));
@@ -188,8 +184,9 @@ mod tests {
 
     #[test]
     fn north_is_a_quarter_of_a_turn_from_east() {
-        assert_eq!(Whereabouts::East.heading(), Some(0.0));
-        assert_eq!(Whereabouts::North.heading(), Some(std::f64::consts::FRAC_PI_2));
+        let north = Whereabouts::Towards(Compass::North);
+        assert_eq!(Whereabouts::Towards(Compass::East).heading(), Some(0.0));
+        assert_eq!(north.heading(), Some(std::f64::consts::FRAC_PI_2));
         assert_eq!(Whereabouts::Middle.heading(), None);
     }
 }

@@ -22,6 +22,10 @@ const PERSON: f64 = 1.5;
 const STANDING: f64 = 0.1;
 /// A body is covered by at most so many discs to either side of its middle.
 const MOST_DISCS: f64 = 20.0;
+/// What reaches farther than this both along and across, a house and no vehicle, is looked at by discs along its outline, m.
+const BROAD: f64 = 1.5;
+/// How far those reach, m: what they touch is filed in the cell of their middle.
+const EDGE: f64 = 1.0;
 
 /// A body that is not the traffic's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -246,8 +250,28 @@ impl Foreign {
             && (0.0..=LONGEST).contains(&self.half_width)
     }
 
-    /// Discs that cover it: their middles, and how far they reach, m.
+    /// Discs that cover it, or all of its outline: their middles, and how far they reach, m.
     fn discs(&self) -> impl Iterator<Item = (Point2, f64)> {
+        let is_broad = self.radius.min(self.half_width) > BROAD;
+        let row = (!is_broad).then(|| self.row()).into_iter().flatten();
+        row.chain(is_broad.then(|| self.outline()).into_iter().flatten())
+    }
+
+    /// Discs along the outline, within it, so near to each other that there is no room for a wheel between them.
+    fn outline(&self) -> impl Iterator<Item = (Point2, f64)> {
+        let ahead = self.direction.try_normalize(1e-9).unwrap_or_else(Vector2::x);
+        let (long, wide) =
+            (ahead * (self.radius - EDGE), Vector2::new(-ahead.y, ahead.x) * (self.half_width - EDGE));
+        let corners = [long + wide, wide - long, -long - wide, long - wide].map(|off| self.position + off);
+        (0..corners.len()).flat_map(move |side| {
+            let (from, way) = (corners[side], corners[(side + 1) % corners.len()] - corners[side]);
+            let count = (way.norm() / EDGE).ceil().max(1.0);
+            (0..count as u32).map(move |step| (from + way * (f64::from(step) / count), EDGE))
+        })
+    }
+
+    /// A row of discs that cover it.
+    fn row(&self) -> impl Iterator<Item = (Point2, f64)> {
         let ahead = self.direction.try_normalize(1e-9).unwrap_or_else(Vector2::x);
         let long = self.radius >= self.half_width;
         let (along, reach) =
@@ -279,9 +303,14 @@ impl Foreign {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_6;
+    use std::sync::Arc;
+
+    use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
     use simworld_core::seed::Seed;
 
     use super::*;
+    use crate::TrafficConfig;
 
     #[test]
     fn a_cell_holds_what_was_put_there_also_beyond_the_origin() {
@@ -297,5 +326,47 @@ mod tests {
                 assert_eq!(cells.at(at), there, "column {column}, row {row}");
             }
         }
+    }
+
+    /// A house of any size, turned any way, is on a track exactly where a point of the middle of that lies in it, or so near.
+    #[test]
+    fn a_house_is_on_the_tracks_that_pass_through_it() {
+        let network = RoadNetwork::derive(&StreetPlan::grid(2, 2, 120.0), &NetworkConfig::default());
+        let tracks = Tracks::new(Arc::new(network.expect("a grid is sound")), &TrafficConfig::default());
+        let finder = Finder::new(&tracks);
+        let along = |track: u32| {
+            let path = tracks.path(track);
+            let steps = (polyline::length(path) / 0.1) as u32;
+            (0..=steps).map(move |step| polyline::at(path, f64::from(step) * 0.1).0)
+        };
+        let middles: Vec<Point2> = (0..tracks.count() as u32).flat_map(along).collect();
+        let mut rng = Seed(8).stream("test/houses").rng();
+        let (mut on, mut off) = (0, 0);
+        for _ in 0..400 {
+            let house = Foreign {
+                position: Point2::new(rng.uniform(-20.0, 140.0), rng.uniform(-20.0, 140.0)),
+                radius: rng.uniform(1.6, 16.0),
+                half_width: rng.uniform(1.6, 16.0),
+                direction: direction(FRAC_PI_6 * rng.below(12) as f64),
+                velocity: Vector2::zeros(),
+            };
+            // How far a point is within the house, m; below zero outside.
+            let within = |point: Point2| {
+                let way = point - house.position;
+                let (x, y) = (way.dot(&house.direction), way.perp(&house.direction));
+                (house.radius - x.abs()).min(house.half_width - y.abs())
+            };
+            let deepest = middles.iter().map(|point| within(*point)).fold(f64::NEG_INFINITY, f64::max);
+            let is_on = finder.is_on_a_track(&tracks, &house);
+            // Nearer to an edge than that it depends on where the discs lie.
+            if deepest > 0.3 {
+                assert!(is_on, "a lane leads {deepest} m deep through {house:?}");
+                on += 1;
+            } else if deepest < -1.1 {
+                assert!(!is_on, "{house:?} stands {} m beside every lane", -deepest);
+                off += 1;
+            }
+        }
+        assert!(on > 50 && off > 50, "{on} on lanes, {off} beside them");
     }
 }

@@ -15,6 +15,7 @@ mod drivers_stop_for_others;
 mod engineers_figures;
 mod everybody_keeps_to_their_lanes;
 mod far_from_interest;
+mod houses_on_lanes;
 mod kerb_to_kerb;
 mod locks_are_undone;
 mod near_junctions_are_passed;

@@ -17,7 +17,7 @@ const ONE_MORE: &Phrases = &Phrases::of(&["one", "another one", "one more", "ano
     "the same thing", "the same again", "a second", "a third", "a fourth", "a fifth", "and another", "one of those", "one of them", "the next one",
     "the next", "the last one", "the last", "the second", "the third", "the second one", "the third one", "a fourth one", "a last one", "yet another",
     "same", "ditto", "same again", "a further one", "a further", "one as well", "one also", "another of those", "one of these", "just one more",
-    "a new one", "the same one", "one like it", "another like it", "one just like it", "the first", "the first one", "a final one", "the final one",
+    "a new one", "the same one", "one like it", "another like it", "one just like it", "another one like it", "another one just like it", "one more like it", "the first", "the first one", "a final one", "the final one",
     "it again", "likewise one", "one too", "an identical one", "its twin", "a twin"]);
 /// Before several such: "two more", "three of them".
 const MORE: &Phrases = &Phrases::of(&[

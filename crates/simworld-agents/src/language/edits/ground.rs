@@ -12,7 +12,7 @@ use super::super::clause::{Choice, Count, Reference};
 use super::super::lexicon::class;
 use super::resolve::Finder;
 use super::wish::{Anchor, Bearing, NewThing, StreetRef, Where, Wish};
-use crate::editing::{Edit, EditError, Line, Sides, Spacing, Stand};
+use crate::editing::{Edit, EditError, Line, Sides, Spacing, Stand, called};
 
 /// So many of a kind along something stand in a row.
 pub(super) const ROW: u32 = 3;
@@ -137,7 +137,9 @@ impl Finder<'_> {
         };
         if (found.len() >= least as usize) != there {
             let why = match found.first().and_then(|thing| self.scene.entity(*thing)) {
-                Some(entity) => format!("nothing was changed: there is {} ({})", entity.label(), entity.id),
+                Some(entity) => {
+                    format!("nothing was changed: there is {} ({})", called(self.scene, &entity), entity.id)
+                }
                 None => format!("nothing was changed: there is no {}", what.text),
             };
             return Ok(vec![Edit::Leave { why }]);
@@ -346,7 +348,7 @@ impl Finder<'_> {
             StreetRef::Thing(thing) => {
                 let found = self.one(thing)?;
                 let label =
-                    self.scene.entity(found).map_or_else(String::new, |entity| entity.label().to_owned());
+                    self.scene.entity(found).map_or_else(String::new, |entity| called(self.scene, &entity));
                 let what = format!("to close or open {label} to traffic");
                 Err(EditError::Impossible {
                     what,

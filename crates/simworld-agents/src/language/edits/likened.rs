@@ -16,13 +16,37 @@ const LIKE: &Phrases = &Phrases::of(&["like", "exactly like", "just like", "prec
 const THERE: &[&str] = &["that", "which", "is", "s", "stands", "stand", "we", "you", "they", "i", "have", "ve", "weve", "youve", "theyve", "ive", "got", "had", "has", "already", "there", "thats", "now", "standing", "over", "own"];
 /// A noun has no more words than that.
 const LONGEST: usize = 3;
+/// What stands for one more of what was spoken of, and for that.
+const MORE: &[&str] = &["another one", "another", "one more"];
+const THAT: &[&str] = &["that one", "this one", "that thing", "this thing", "that", "this"];
+/// Behind that, where nothing follows that it would belong to.
+const ENDS: &[&str] = &["here", "there", "and", "too", "please", "also", "as well"];
 
 /// Puts the words so.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    like_it(lexemes);
     if let Some(plain) = copied(lexemes) {
         *lexemes = plain;
     }
     the_new_one(lexemes);
+}
+
+/// "Another one like that next to the fountain": like it.
+fn like_it(lexemes: &mut Vec<Lexeme>) {
+    let that = (0..lexemes.len()).find_map(|at| {
+        let more = at + longest_phrase(&lexemes[at..], MORE)?;
+        let from = more + longest_phrase(&lexemes[more..], LIKE)?;
+        let end = from + longest_phrase(&lexemes[from..], THAT)?;
+        let behind = &lexemes[end..];
+        let ends = behind.first().is_none_or(is_mark)
+            || longest(behind, &WAYS).is_some()
+            || longest_phrase(behind, ENDS).is_some();
+        ends.then_some(from..end)
+    });
+    if let Some(that) = that {
+        let it = word_at(&lexemes[that.start], "it");
+        lexemes.splice(that, [it]);
+    }
 }
 
 /// "Another bench like the red one": a copy of the red bench.
@@ -110,6 +134,17 @@ mod tests {
         );
         assert_eq!(plain("another bench like the red one here"), "a copy of the red bench here");
         assert_eq!(plain("another bench next to the red one"), "another bench next to the red one");
+    }
+
+    #[test]
+    fn another_one_like_that_is_one_like_it() {
+        assert_eq!(
+            plain("add another one like that next to the fountain"),
+            "add another one like it next to the fountain"
+        );
+        assert_eq!(plain("another exactly like that one, please"), "another exactly like it , please");
+        assert_eq!(plain("another one like that bench"), "another one like that bench");
+        assert_eq!(plain("one more lamp like that one here"), "one more lamp like that one here");
     }
 
     #[test]

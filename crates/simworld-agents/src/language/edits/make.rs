@@ -105,21 +105,23 @@ impl NewThing {
         };
         match (choice, left_over) {
             // "A hat" is nobody who wears one.
-            (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(words, near(&[]))),
-            (Choice::Sure(hit), _) => stock.catalogue.get(hit.asset).ok_or_else(|| unknown(words, near(&[]))),
+            (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(words, near(&[], stock))),
+            (Choice::Sure(hit), _) => {
+                stock.catalogue.get(hit.asset).ok_or_else(|| unknown(words, near(&[], stock)))
+            }
             (Choice::Unsure(_), Some(modifiers)) => {
                 let near =
                     format!("nothing here is {modifiers}; say it without, or name it by colour and size");
                 Err(EditError::UnknownThing { wanted: self.text.clone(), near })
             }
-            // "A soda" is any of those that are told apart by a number alone.
+            // "A soda" is any of those that are told apart by a number or an address alone.
             (Choice::Unsure(hits), None) => hits
                 .first()
-                .filter(|_| are_one(&hits))
+                .filter(|_| are_one(&hits, stock))
                 .and_then(|hit| stock.catalogue.get(hit.asset))
                 .ok_or_else(|| {
                     let fault = fault.map_or_else(String::new, |fault| format!("; {fault}"));
-                    unknown(words, near(&hits) + &fault)
+                    unknown(words, near(&hits, stock) + &fault)
                 }),
         }
     }
@@ -182,18 +184,30 @@ fn unknown(words: &[&str], near: String) -> EditError {
     EditError::UnknownThing { wanted: words.join(" "), near }
 }
 
-/// Whether all that was found is called the same but for a number.
-fn are_one(hits: &[Hit]) -> bool {
+/// What people call what was found.
+fn called(hit: &Hit, stock: &Stock) -> String {
+    stock.catalogue.get(hit.asset).map_or_else(|| hit.name.replace('_', " "), Asset::called)
+}
+
+/// Whether all that was found is called the same but for a number, or for the address of what was made.
+fn are_one(hits: &[Hit], stock: &Stock) -> bool {
     let stem = |hit: &Hit| {
-        hit.name.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end_matches('_').to_owned()
+        let called = called(hit, stock);
+        called.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end().to_owned()
     };
     let first = hits.first().map(stem);
-    hits.len() > 1 && hits.iter().all(|hit| Some(stem(hit)) == first && stem(hit) != hit.name)
+    let is_so = |hit: &Hit| Some(stem(hit)) == first && stem(hit) != hit.name.replace('_', " ");
+    hits.len() > 1 && hits.iter().all(is_so)
 }
 
 /// What an answer says of what is near.
-fn near(hits: &[Hit]) -> String {
-    let names: Vec<String> = hits.iter().map(|hit| hit.name.replace('_', " ")).collect();
+fn near(hits: &[Hit], stock: &Stock) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for name in hits.iter().map(|hit| called(hit, stock)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
     match &names[..] {
         [] => "nothing in it is called so; say what it looks like, or what it is for".to_owned(),
         [only] => format!("the nearest is {only}; say that if it will do"),

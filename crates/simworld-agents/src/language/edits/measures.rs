@@ -11,7 +11,7 @@ use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
-use crate::editing::{Edit, EditError, Make, Stock};
+use crate::editing::{Edit, EditError, Make, Stock, called};
 
 /// Which way something is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -259,7 +259,7 @@ impl Finder<'_> {
         let (one, other) = (self.one(one)?, self.one(other)?);
         if (self.extent_of(one, extent) > self.extent_of(other, extent)) != larger {
             let label = |id: EntityId| {
-                self.scene.entity(id).map_or_else(String::new, |thing| thing.label().to_owned())
+                self.scene.entity(id).map_or_else(String::new, |thing| called(self.scene, &thing))
             };
             let why = format!("nothing was changed: it is not so of {} and {}", label(one), label(other));
             return Ok(vec![Edit::Leave { why }]);

@@ -432,7 +432,7 @@ pub(super) fn plural(reference: &Reference) -> bool {
     let head = lower.split([',', '.']).next().unwrap_or_default();
     let head = lex(head);
     // "The limes" are trees of that sort.
-    let sort = reference.traits.sort.as_ref().and_then(|sort| sort.rsplit('_').next());
+    let sort = reference.traits.sort.as_ref().and_then(|sort| sort.rsplit(['_', ' ']).next());
     let is_singular = |word: &str| {
         class.words.iter().any(|known| known.rsplit(' ').next() == Some(word)) || sort == Some(word)
     };

@@ -11,7 +11,7 @@ use super::super::clause::Reference;
 use super::super::resolve::View;
 use super::resolve::Finder;
 use super::{Focus, Reading, view_of};
-use crate::editing::{Edit, EditError, Stock, Taken};
+use crate::editing::{Edit, EditError, Stock, Taken, called};
 
 /// A policy, and what it took.
 #[derive(Debug)]
@@ -140,7 +140,7 @@ impl Finder<'_> {
     }
 
     fn label(&self, id: EntityId) -> String {
-        self.scene.entity(id).map_or_else(|| id.to_string(), |entity| entity.label().to_owned())
+        self.scene.entity(id).map_or_else(|| id.to_string(), |entity| called(self.scene, &entity))
     }
 
     /// From where the scene is looked at, m.

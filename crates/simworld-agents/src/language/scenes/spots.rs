@@ -142,13 +142,11 @@ fn by_compass(lexemes: &[Lexeme]) -> Option<(Spot, usize)> {
     let before = longest_phrase(lexemes, IN)?;
     let rest = &lexemes[before..];
     let (compass, words) = longest(rest, DIRECTIONS).or_else(|| longest(rest, MOST))?;
-    let heading = Some(compass.heading());
-    let at = Whereabouts::ALL.into_iter().find(|part| part.heading() == heading)?;
     let mut end = before + words;
     for tail in [PART, OF_IT] {
         end += longest_phrase(&lexemes[end..], tail).unwrap_or(0);
     }
-    Some((Spot { at, by: None }, end))
+    Some((Spot { at: Whereabouts::Towards(compass), by: None }, end))
 }
 
 /// "By the station", "along the river".

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use simworld_core::asset::{Asset, Catalogue};
+use simworld_core::clock::Clock;
 use simworld_core::geometry::{Point2, Point3, Pose, Vector2, planar, pose_facing};
 use simworld_core::id::{AssetId, EntityId};
 use simworld_core::net::StreetPlan;
@@ -68,6 +69,19 @@ impl SceneFile {
         editor: SceneEditor,
         places: &mut dyn PlaceMaker,
     ) -> Result<Loaded, SceneFileError> {
+        self.load_by(Clock::default(), editor, places)
+    }
+
+    /// As [`load_with`](Self::load_with), in a world with a clock of one's own.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_by(
+        &self,
+        clock: Clock,
+        editor: SceneEditor,
+        places: &mut dyn PlaceMaker,
+    ) -> Result<Loaded, SceneFileError> {
         let mut problems = check(self);
         let count: u64 = self.things.iter().map(|thing| u64::from(thing.many())).sum();
         let items = if count <= MOST_THINGS { items(self) } else { Vec::new() };
@@ -75,7 +89,7 @@ impl SceneFile {
         let assets = self.assets(editor.catalogue(), &mut problems);
         let plan = streets::plan(self, &mut problems);
         let assets = problems.none_or(assets)?;
-        let mut world = World::new();
+        let mut world = World::with_clock(clock);
         self.make_place(plan.as_ref(), places, &mut world)?;
         let ids = self.set_down(&items, &supports, &assets, &mut world)?;
         // They are the editor's.

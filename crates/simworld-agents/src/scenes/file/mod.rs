@@ -30,7 +30,7 @@ pub use aside::Aside;
 pub use check::{FARTHEST, MOST_SAYS, MOST_THINGS};
 pub use colour::Colour;
 pub use error::{Fault, MOST_LISTED, Problem, Problems, SceneFileError, Where};
-pub use facing::{Compass, Facing};
+pub use facing::Facing;
 pub use load::Loaded;
 pub use numbers::{At, Pair};
 pub use place::{NoPlaces, PlaceError, PlaceMaker};

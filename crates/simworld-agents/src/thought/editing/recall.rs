@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 
 use simworld_core::geometry::Aabb;
 use simworld_core::id::{EntityId, IntersectionId, RoadId};
-use simworld_core::scene::{EntityKind, EntityRef};
+use simworld_core::scene::{EntityKind, EntityRef, Scene};
 use simworld_core::value::Value;
 
 use super::super::prompts::one_line;
 use super::ways::Ways;
-use crate::editing::{Asked, Edit};
+use crate::editing::{Asked, Edit, called, made_as};
 use crate::language::name_of_color;
 use crate::retrieval::AssetIndex;
 
@@ -133,7 +133,7 @@ fn ranked(asked: &Asked<'_>, words: &BTreeSet<String>) -> Vec<(usize, f64, Entit
     let mut found: BTreeMap<EntityId, (usize, f64)> = BTreeMap::new();
     let mut consider = |entity: &EntityRef<'_>, least: usize| {
         let is_road = matches!(entity.kind, EntityKind::Road | EntityKind::Sidewalk);
-        let hits = hits(entity, words);
+        let hits = hits(asked.scene, entity, words);
         if !is_road && Some(entity.id) != asked.who && hits >= least {
             found.insert(entity.id, (hits, (entity.planar() - asked.from).norm()));
         }
@@ -158,9 +158,9 @@ fn ranked(asked: &Asked<'_>, words: &BTreeSet<String>) -> Vec<(usize, f64, Entit
 }
 
 /// How many of the words are said of a thing.
-fn hits(entity: &EntityRef<'_>, words: &BTreeSet<String>) -> usize {
+fn hits(scene: &dyn Scene, entity: &EntityRef<'_>, words: &BTreeSet<String>) -> usize {
     let mut text = entity.kind.as_str().to_owned();
-    let _ = write!(text, " {}", entity.label());
+    let _ = write!(text, " {}", called(scene, entity));
     text.extend(entity.info.place.map(|place| format!(" {place}")));
     text.extend(entity.info.color.map(|color| format!(" {}", name_of_color(color))));
     text.extend(entity.info.attributes.values().filter_map(|value| match value {
@@ -175,6 +175,9 @@ fn hits(entity: &EntityRef<'_>, words: &BTreeSet<String>) -> usize {
 /// "#12 bench "Anna's", red, at (123, -40)", in decimetres.
 fn line(asked: &Asked<'_>, entity: &EntityRef<'_>) -> String {
     let mut line = format!("{} {}", entity.id, entity.kind);
+    if let Some(made) = made_as(asked.scene, entity.info) {
+        let _ = write!(line, " ({})", one_line(&made));
+    }
     if let Some(place) = entity.info.place {
         let _ = write!(line, " ({place})");
     }
