@@ -55,7 +55,7 @@ impl Catalogue {
         let mut catalogue = Self::new();
         for asset in assets {
             let added = catalogue.add(asset);
-            debug_assert!(added.is_ok(), "{added:?}");
+            assert!(added.is_ok(), "{added:?}");
         }
         catalogue
     }

@@ -162,7 +162,7 @@ impl Column<'_> {
     }
 
     fn at(&self, row: usize, which: usize) -> usize {
-        debug_assert!(row < self.count && which < self.wide, "within what was checked");
+        assert!(row < self.count && which < self.wide, "within what was checked");
         row * self.stride + which * self.number.size()
     }
 

@@ -49,7 +49,6 @@ impl Reader<'_> {
         let end = self.before_politeness(start, end);
         (start + 1..end).find_map(|cut| {
             let (paints, after) = self.colours(cut, end).filter(|(_, after)| *after == end)?;
-            debug_assert!(after <= end, "colours end where the words do");
             let mut stop = cut;
             while stop > start + 1
                 && longest_phrase(

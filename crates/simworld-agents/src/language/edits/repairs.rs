@@ -225,7 +225,6 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
     if let Some((_, words)) =
         numbers::number(meant).filter(|(_, words)| *words == meant.len() && !is_article(meant))
     {
-        debug_assert!(words > 0, "a number has words");
         return last(&|at| {
             numbers::number(&before[at..]).filter(|_| is_number(&before[at])).map(|(_, words)| words)
         });
