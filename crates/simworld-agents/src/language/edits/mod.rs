@@ -59,6 +59,7 @@ mod predicates;
 mod remaining;
 mod remarks;
 mod repairs;
+mod replaced;
 mod resolve;
 mod respelt;
 mod retold;
