@@ -150,12 +150,18 @@ pub(super) fn without_idioms(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     (kept.len() < lexemes.len() && !kept.iter().all(is_mark)).then_some(kept)
 }
 
-fn says_nothing(said: &[Lexeme]) -> bool {
+/// Whether words are a turn that says nothing by itself, whatever it holds: "no rush".
+pub(super) fn says_nothing(said: &[Lexeme]) -> bool {
     !said.is_empty() && longest_phrase(said, IDIOMS) == Some(said.len())
 }
 
+/// Whether a sentence of politeness begins so, whatever follows: "sorry about the mess".
+pub(super) fn begins_politely(said: &[Lexeme]) -> bool {
+    longest_phrase(said, POLITE).is_some()
+}
+
 /// Whether nothing but politeness is said.
-fn is_filled(mut said: &[Lexeme]) -> bool {
+pub(super) fn is_filled(mut said: &[Lexeme]) -> bool {
     while let Some(count) = filler(said) {
         said = &said[count..];
     }
@@ -224,7 +230,12 @@ fn is_fragment(said: &[Lexeme]) -> bool {
         && said.len() > 1
         && said[0].lemma.is_none()
         && !ASKS.contains(&first)
-        && !BIDDEN.split_whitespace().any(|verb| verb == first)
+        && !is_bidden(first)
+}
+
+/// Whether it is what people are told to do that nobody here can, in its plain form.
+pub(super) fn is_bidden(word: &str) -> bool {
+    BIDDEN.split_whitespace().any(|verb| verb == word)
 }
 
 /// What people are told to do that nobody here can, in their plain form: whoever begins so orders something.
@@ -232,7 +243,7 @@ const BIDDEN: &str = include_str!("bidden.txt");
 
 /// Whether no part of what is said is an order, forbids or says when.
 fn asks_for_nothing(said: &[Lexeme]) -> bool {
-    let polite = longest_phrase(said, POLITE).is_some();
+    let polite = begins_politely(said);
     let mut at = 0;
     while let Some(count) = filler(&said[at..]) {
         at += count;
