@@ -81,7 +81,8 @@ impl Attempts<'_> {
             .or_else(|| self.by_shape(&self.reader))
             .or_else(|| ways.iter().find_map(|way| self.by_shape(&self.over(way))))
             .or_else(|| self.with_antecedents())
-            .or_else(|| self.sentence_by_sentence(&ways));
+            .or_else(|| self.sentence_by_sentence(&ways))
+            .or_else(|| self.told_again(&self.loosely(&ways), &mut None));
         if let Some(wishes) = bolder {
             return Ok(wishes);
         }
@@ -123,6 +124,12 @@ impl Attempts<'_> {
             }
             in_parts
         })
+    }
+
+    /// As it was said, and in other words, by the turns of people who speak loosely.
+    fn loosely(&self, ways: &[Retold]) -> Vec<Retold> {
+        let said = std::iter::once(self.reader.lexemes).chain(ways.iter().map(|(lexemes, _)| &lexemes[..]));
+        said.filter_map(super::loose::in_plain_words).map(|lexemes| (lexemes, Memo::default())).collect()
     }
 
     /// By the shape of its parts. What is told along the way may have said where.

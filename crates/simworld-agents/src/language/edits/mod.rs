@@ -34,6 +34,7 @@ mod ground;
 mod heard;
 mod idle;
 mod likened;
+mod loose;
 mod make;
 mod measures;
 mod memo;
@@ -351,6 +352,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(chatty::words())
         .chain(chatter::words())
         .chain(mistaken::words())
+        .chain(loose::words())
         .chain(talk::words())
         .chain(casual::words())
         .chain(wording::words())
