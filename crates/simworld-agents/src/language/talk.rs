@@ -106,7 +106,7 @@ fn order_begins(mut said: &[Lexeme]) -> bool {
     while let Some(count) = filler(said) {
         said = &said[count..];
     }
-    is_bidden(said) && !seems(said)
+    is_told(said) && !seems(said)
 }
 
 /// The order with the name of whom the talk before it told in the place of the first pronoun: "Ben's my cousin, by the way. Go to him".
@@ -209,7 +209,7 @@ pub(super) fn without_epithets(lexemes: &[Lexeme], names: &Names<'_>) -> Option<
         category(rest).is_some()
             || names.exact(rest).is_some()
             || names.goods(rest).is_some()
-            || is_bidden(rest)
+            || is_told(rest)
     };
     let mut kept = lexemes.to_vec();
     let breaks =
@@ -227,7 +227,7 @@ pub(super) fn without_epithets(lexemes: &[Lexeme], names: &Names<'_>) -> Option<
         if calls
             && !(1..called.len()).any(|at| known(&called[at..]))
             && begin < mark
-            && !is_bidden(&lexemes[begin..mark])
+            && !is_told(&lexemes[begin..mark])
         {
             kept.drain(mark..end);
         }
@@ -235,12 +235,18 @@ pub(super) fn without_epithets(lexemes: &[Lexeme], names: &Names<'_>) -> Option<
     (kept.len() < lexemes.len()).then_some(kept)
 }
 
-fn says_nothing(said: &[Lexeme]) -> bool {
+/// Whether words are a turn that says nothing by itself, whatever it holds: "no rush".
+pub(super) fn says_nothing(said: &[Lexeme]) -> bool {
     !said.is_empty() && longest_phrase(said, IDIOMS) == Some(said.len())
 }
 
+/// Whether a sentence of politeness begins so, whatever follows: "sorry about the mess".
+pub(super) fn begins_politely(said: &[Lexeme]) -> bool {
+    longest_phrase(said, POLITE).is_some()
+}
+
 /// Whether nothing but politeness is said.
-fn is_filled(mut said: &[Lexeme]) -> bool {
+pub(super) fn is_filled(mut said: &[Lexeme]) -> bool {
     while let Some(count) = filler(said) {
         said = &said[count..];
     }
@@ -262,7 +268,7 @@ fn is_talk(sentence: &[Lexeme], order: &[Lexeme], names: &Names<'_>) -> bool {
     let idle = |said: &[Lexeme]| {
         (said.len() > 1 || several || is_noun(word_of(&said[0])))
             && is_fragment(said)
-            && !(0..said.len()).any(|at| named(&said[at..]) || is_bidden(&said[at..]) && !noun(said, at))
+            && !(0..said.len()).any(|at| named(&said[at..]) || is_told(&said[at..]) && !noun(said, at))
     };
     let tells = parts
         .peek()
@@ -324,7 +330,7 @@ fn seems(said: &[Lexeme]) -> bool {
 }
 
 /// Whether words begin with a verb, and not with what is called like one: "start of the shift".
-fn is_bidden(said: &[Lexeme]) -> bool {
+fn is_told(said: &[Lexeme]) -> bool {
     let noun = |words: usize| words == 1 && said.get(1).is_some_and(|next| word_of(next) == "of");
     longest_verb(said).is_some_and(|(_, words)| !noun(words))
 }
@@ -337,7 +343,12 @@ fn is_fragment(said: &[Lexeme]) -> bool {
     !first.is_empty()
         && !ASKS.contains(&first)
         && (said.get(1).is_some_and(|next| word_of(next) == "of")
-            || said[0].lemma.is_none() && !BIDDEN.split_whitespace().any(|verb| verb == first))
+            || said[0].lemma.is_none() && !is_bidden(first))
+}
+
+/// Whether it is what people are told to do that nobody here can, in its plain form.
+pub(super) fn is_bidden(word: &str) -> bool {
+    BIDDEN.split_whitespace().any(|verb| verb == word)
 }
 
 /// What people are told to do that nobody here can, in their plain form: whoever begins so orders something.
@@ -353,7 +364,7 @@ fn asks_for_nothing(said: &[Lexeme]) -> bool {
             return true;
         }
     }
-    let orders = |at: usize| is_bidden(&said[at..]) && !seems(&said[at..]);
+    let orders = |at: usize| is_told(&said[at..]) && !seems(&said[at..]);
     !is_guarded(&said[polite..]) && (polite > 0 || seems(said) || !orders(0) && !orders(at))
 }
 

@@ -14,7 +14,7 @@ use super::phrases::Phrases;
 #[rustfmt::skip]
 const ON_STREET: &Phrases = &Phrases::of(&[
     "on", "along", "in", "at", "down", "lining", "beside", "off", "of", "from", "all along", "up and down", "on the edge of",
-    "along the edge of", "on both sides of",
+    "along the edge of", "on both sides of", "by", "right by", "next to", "right next to",
 ]);
 /// What stands before an area in which something is.
 #[rustfmt::skip]

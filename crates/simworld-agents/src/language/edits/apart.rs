@@ -14,7 +14,7 @@ use super::words::{VERBS, Verb};
 #[rustfmt::skip]
 const TAKES: &Phrases = &Phrases::of(&["throw", "take", "chuck", "get", "tear", "knock", "pull", "cut", "chop", "toss", "kick", "haul", "cart", "clear", "sweep",
     "carry", "send", "bring", "drag", "push", "rip", "strip", "wipe", "lift", "put", "clean", "dig", "move", "pluck", "have", "want", "make", "let",
-    "see", "strike", "cross", "rub", "tow", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast"]);
+    "see", "strike", "cross", "rub", "tow", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast", "turf", "boot", "whisk", "spirit", "heave", "hoof", "shoo", "hoick", "hoik", "yank"]);
 /// The particles.
 #[rustfmt::skip]
 const AWAY: &Phrases = &Phrases::of(&["away", "out", "off", "out of here", "out of there", "out of the way", "out of the scene", "from the scene", "from here", "off the map",

@@ -81,7 +81,8 @@ impl Attempts<'_> {
             .or_else(|| self.by_shape(&self.reader))
             .or_else(|| ways.iter().find_map(|way| self.by_shape(&self.over(way))))
             .or_else(|| self.with_antecedents())
-            .or_else(|| self.sentence_by_sentence(&ways));
+            .or_else(|| self.sentence_by_sentence(&ways))
+            .or_else(|| self.told_again(&self.loosely(&ways), &mut None));
         if let Some(wishes) = bolder {
             return Ok(wishes);
         }
@@ -123,6 +124,12 @@ impl Attempts<'_> {
             }
             in_parts
         })
+    }
+
+    /// As it was said, and in other words, by the turns of people who speak loosely.
+    fn loosely(&self, ways: &[Retold]) -> Vec<Retold> {
+        let said = std::iter::once(self.reader.lexemes).chain(ways.iter().map(|(lexemes, _)| &lexemes[..]));
+        said.filter_map(super::loose::in_plain_words).map(|lexemes| (lexemes, Memo::default())).collect()
     }
 
     /// By the shape of its parts. What is told along the way may have said where.
@@ -192,28 +199,32 @@ impl Attempts<'_> {
         !is_lost && !wishes.first().is_some_and(|readings| readings.iter().all(missing))
     }
 
-    /// Whether somebody has what a wish asks for, whatever it stands on; and whether it moves nobody who is not spoken of.
     fn is_known(&self, wish: &Wish) -> bool {
-        let is_new = |thing: &NewThing| thing.make(self.stock).is_ok();
-        let is_viewer =
-            |what: &Reference| what.target == Target::Here || ["we", "us"].contains(&what.text.as_str());
-        match wish {
-            // "Get a bench for the kids" moves nobody.
-            Wish::Move { what, .. } => self.speaks_of_self || !what.iter().any(is_viewer),
-            Wish::Add { things, .. } => things.iter().all(is_new),
-            Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
-            Wish::When { then, .. }
-            | Wish::WhenPassage { then, .. }
-            | Wish::WhenLarger { then, .. }
-            | Wish::Given { then, .. } => self.is_known(then),
-            Wish::All(wishes) => wishes.iter().all(|wish| self.is_known(wish)),
-            _ => true,
-        }
+        is_known(wish, self.stock, self.speaks_of_self)
+    }
+}
+
+/// Whether somebody has what a wish asks for, whatever it stands on; and whether it moves nobody who is not spoken of.
+pub(super) fn is_known(wish: &Wish, stock: &Stock, speaks_of_self: bool) -> bool {
+    let is_new = |thing: &NewThing| thing.make(stock).is_ok();
+    let is_viewer =
+        |what: &Reference| what.target == Target::Here || ["we", "us"].contains(&what.text.as_str());
+    match wish {
+        // "Get a bench for the kids" moves nobody.
+        Wish::Move { what, .. } => speaks_of_self || !what.iter().any(is_viewer),
+        Wish::Add { things, .. } => things.iter().all(is_new),
+        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
+        Wish::When { then, .. }
+        | Wish::WhenPassage { then, .. }
+        | Wish::WhenLarger { then, .. }
+        | Wish::Given { then, .. } => is_known(then, stock, speaks_of_self),
+        Wish::All(wishes) => wishes.iter().all(|wish| is_known(wish, stock, speaks_of_self)),
+        _ => true,
     }
 }
 
 /// Whether something new is to stand nowhere in particular.
-fn is_nowhere(wish: &Wish) -> bool {
+pub(super) fn is_nowhere(wish: &Wish) -> bool {
     matches!(wish, Wish::Add { at, .. } if at.is_empty())
 }
 

@@ -166,7 +166,7 @@ fn number(lexemes: &[Lexeme]) -> Option<usize> {
 }
 
 /// Where new things begin that end at a mark: "a ping pong", "half a dozen lobster".
-fn new_before(lexemes: &[Lexeme], mark: usize) -> Option<usize> {
+pub(super) fn new_before(lexemes: &[Lexeme], mark: usize) -> Option<usize> {
     const LONGEST: usize = 5;
     (mark.saturating_sub(LONGEST)..mark).find(|from| {
         let words = longest_phrase(&lexemes[*from..mark], DETERMINERS).or(number(&lexemes[*from..mark]));

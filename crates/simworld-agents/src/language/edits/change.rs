@@ -399,7 +399,7 @@ impl Reader<'_> {
     pub(super) fn copies(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
         #[rustfmt::skip]
     const COPIES: &[&str] = &["copies of", "copy of", "clones of", "clone of", "duplicates of", "duplicate of",
-        "more copies of", "more of"];
+        "more copies of", "more of", "replica of", "replicas of", "twin of", "twins of"];
         let start = self.at;
         if let Some(copies) = self.just_like(end) {
             return Some(copies);

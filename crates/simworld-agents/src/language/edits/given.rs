@@ -352,7 +352,9 @@ impl Reader<'_> {
         {
             return Some((!is_unless, words));
         }
-        let stands = what.relation.is_some() && matches!(what.target, Target::Any(_) | Target::Named(_));
+        // "If one of the limes is taller than ten metres".
+        let is_told = what.relation.is_some() || what.traits.than.is_some();
+        let stands = is_told && matches!(what.target, Target::Any(_) | Target::Named(_));
         let ends = parser.at >= end || joint(&self.lexemes[parser.at..end]).is_some();
         (stands && ends).then_some((!is_unless, words))
     }

@@ -8,6 +8,10 @@ use super::parse::Reader;
 use super::wish::{Anchor, Where, Wish};
 use super::words::{VERBS, Verb};
 
+/// Before what somebody waits for.
+#[rustfmt::skip]
+pub(super) const WAITS: &Phrases = &Phrases::of(&["we wait for", "i wait for", "we are waiting for", "were waiting for", "im waiting for", "i am waiting for", "we have been waiting for", "weve been waiting for", "we await", "we are awaiting", "were awaiting", "we expect", "i expect", "we are expecting", "were expecting", "im expecting", "i am expecting"]);
+
 impl Reader<'_> {
     /// "Thirty men are coming, thirty, so ...": bare things without a place from which a request follows are who it is for.
     pub(super) fn is_count_told(&self, wishes: &[Vec<Wish>], from: usize, end: usize) -> bool {
@@ -167,6 +171,7 @@ impl Reader<'_> {
                 && self.leads_to_order(end)
         };
         self.is_enough(from, end)
+            || self.is_awaited(wishes, from, end)
             || has_closed && wishes.iter().flatten().any(is_passage)
             || wishes.iter().flatten().any(is_sky)
                 && (is_forecast()
@@ -186,6 +191,17 @@ impl Reader<'_> {
             "you only need",
         ]);
         longest_phrase(&self.lexemes[from..end], ENOUGH).is_some() && self.leads_to_order(end)
+    }
+
+    /// "We wait for a delivery, put a bollard ...": what somebody waits for comes by itself, unless it is spoken of again.
+    fn is_awaited(&self, wishes: &[Vec<Wish>], from: usize, end: usize) -> bool {
+        const AGAIN: &[&str] = &["one", "ones", "it", "that", "this", "them", "those"];
+        let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+        let is_again = |at: usize| self.word(at).is_some_and(|word| AGAIN.contains(&word));
+        longest_phrase(&self.lexemes[from..end], WAITS).is_some()
+            && wishes.iter().flatten().all(nowhere)
+            && self.lexemes[end..].iter().any(|lexeme| !is_mark(lexeme))
+            && !(end..self.lexemes.len()).any(is_again)
     }
 
     /// "Kids are kids", "that's eleven people": nobody puts a crowd nowhere without a verb.
@@ -254,4 +270,9 @@ pub(super) fn beside_what_was_told(wish: &mut Wish, place: &[super::wish::Where]
         let anchors = at.iter_mut().filter_map(Where::anchor_mut);
         anchors.filter(|own| own.is_it()).for_each(|own| *own = anchor.clone());
     }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    WAITS.iter().flat_map(|phrase| phrase.split(' '))
 }

@@ -16,6 +16,7 @@ mod bounds;
 mod breaks;
 mod casual;
 mod change;
+mod chatter;
 mod chatty;
 mod complaints;
 mod conditions;
@@ -30,8 +31,10 @@ mod frames;
 mod given;
 mod goodbye;
 mod ground;
+mod heard;
 mod idle;
 mod likened;
+mod loose;
 mod make;
 mod measures;
 mod memo;
@@ -59,6 +62,7 @@ mod predicates;
 mod remaining;
 mod remarks;
 mod repairs;
+mod replaced;
 mod resolve;
 mod respelt;
 mod retold;
@@ -86,6 +90,7 @@ mod told;
 mod topics;
 mod turn;
 mod turns;
+mod unasked;
 mod which;
 mod whole;
 mod wish;
@@ -94,20 +99,15 @@ pub(super) mod words;
 
 use std::sync::Arc;
 
-use attempts::wishes_of;
-use parse::{Reader, UNDERSTOOD};
+pub(crate) use heard::read;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
 use wish::Wish;
 
-use super::lexer::Lexeme;
-use super::names::Names;
-use super::parser::shortened;
+use super::AmbiguityPolicy;
 use super::resolve::View;
 use super::streets::StreetNames;
-use super::{AmbiguityPolicy, LONGEST_SENTENCE, hearing};
-use crate::editing::{EditError, Stock};
 
 /// From where the scene is looked at, and what was spoken of.
 #[derive(Clone, Debug)]
@@ -145,83 +145,6 @@ impl Reading {
     pub(crate) fn len(&self) -> usize {
         self.wishes.len()
     }
-}
-
-/// Reads a sentence; names are those of the scene.
-pub(crate) fn read(
-    words: &str,
-    scene: &dyn Scene,
-    stock: &Stock,
-    focus: &Focus,
-) -> Result<Reading, EditError> {
-    if words.chars().count() > LONGEST_SENTENCE {
-        let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
-        return Err(EditError::NotUnderstood { words: shortened(words), fragment: String::new(), hint });
-    }
-    let view = view_of(scene, focus);
-    let names = Names::new(scene, focus.from, super::RANGE);
-    let mut lexemes = hearing::hear(words, None);
-    put_plainly(words, &mut lexemes, &names, (stock, &focus.streets));
-    let names = names.with_made(&lexemes, &stock.catalogue);
-    let first = nth::first_of(&mut lexemes);
-    let memo = memo::Memo::default();
-    let reader =
-        Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
-    let nearest = reader.with_nearest_to_street();
-    let reader = Reader { lexemes: nearest.as_deref().unwrap_or(&lexemes), ..reader };
-    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
-    let topics = reader.with_topics(&finder);
-    let reader = Reader { lexemes: topics.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let pointed = reader.with_what_was_pointed_at();
-    let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let numbered = reader.with_number();
-    let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let stood = reader.with_old_places(&finder);
-    let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let left = reader.with_what_is_left(&finder);
-    let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let several = reader.with_several_nearest(&finder);
-    let reader = Reader { lexemes: several.as_deref().unwrap_or(reader.lexemes), ..reader };
-    let mut wishes = wishes_of(reader, scene, stock, focus)?;
-    if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
-        return Err(reader.not_understood("say of what every second one is meant").into());
-    }
-    dress_new(&mut wishes);
-    if focus.it.is_none() {
-        gone_by_name(&mut wishes);
-    }
-    gone_once(&mut wishes);
-    made_once(&mut wishes);
-    paint_at_once(&mut wishes, &finder);
-    Ok(Reading { words: words.to_owned(), wishes })
-}
-
-/// Puts the words of a sentence plainly, one thing at a time, before it is read.
-fn put_plainly(
-    words: &str,
-    lexemes: &mut Vec<Lexeme>,
-    names: &Names<'_>,
-    (stock, streets): (&Stock, &StreetNames),
-) {
-    breaks::in_plain_words(words, lexemes);
-    wording::in_plain_words(words, lexemes);
-    respelt::in_plain_spelling(words, lexemes);
-    talk::in_plain_words(words, lexemes, names);
-    doubted::in_plain_words(lexemes);
-    casual::in_plain_words(lexemes);
-    retold::in_plain_words(lexemes);
-    slips::correct(words, lexemes, names, stock, streets);
-    spared::in_plain_words(lexemes);
-    phrased::in_plain_words(words, lexemes, names);
-    narrowed::in_plain_words(lexemes);
-    plain::in_plain_words(words, lexemes, names);
-    others::in_plain_words(lexemes);
-    which::in_plain_words(lexemes);
-    whole::in_plain_words(lexemes);
-    passing::leave_out(lexemes);
-    rows::on_both_sides(lexemes, streets);
-    repairs::put_right(lexemes);
-    spoken::name_streets(lexemes, streets);
 }
 
 /// "Eight stools round the fountain, and paint them orange": what is said of new things behind them is how they are made.
@@ -427,6 +350,9 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(spared::words())
         .chain(likened::words())
         .chain(chatty::words())
+        .chain(chatter::words())
+        .chain(mistaken::words())
+        .chain(loose::words())
         .chain(talk::words())
         .chain(casual::words())
         .chain(wording::words())

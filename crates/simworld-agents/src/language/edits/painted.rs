@@ -48,7 +48,7 @@ impl Reader<'_> {
     pub(super) fn painted_in_turn(&self, start: usize, end: usize) -> Option<Wish> {
         let end = self.before_politeness(start, end);
         (start + 1..end).find_map(|cut| {
-            let (paints, after) = self.colours(cut, end).filter(|(_, after)| *after == end)?;
+            let (paints, _) = self.colours(cut, end).filter(|(_, after)| *after == end)?;
             let mut stop = cut;
             while stop > start + 1
                 && longest_phrase(

@@ -244,6 +244,7 @@ impl Reader<'_> {
         #[rustfmt::skip]
         const BEFORE: &[&str] = &["the", "that", "this", "all the", "all", "every", "all of the", "any", "whatever", "a"];
         const STREETS: &[&str] = &["road", "street", "roads", "streets", "lane", "lanes", "carriageway"];
+        const PARTS: &[&str] = &["part", "bit", "stretch", "section", "piece", "half"];
         #[rustfmt::skip]
         const RUNS: &[&str] = &["that runs", "which runs", "running", "that is", "that goes", "that passes", "which is", "that leads",
             "right", "directly", "just", "that are", "which are", "passing", "going"];
@@ -276,7 +277,8 @@ impl Reader<'_> {
         let nearest = phrase(at, &["nearest", "closest", "nearby"]);
         let closed = phrase(at, &["closed", "blocked", "shut"]);
         at += nearest.or(closed).unwrap_or(0);
-        at += phrase(at, STREETS)?;
+        // "The closed part" is what is closed.
+        at += phrase(at, STREETS).or_else(|| closed.and_then(|_| phrase(at, PARTS)))?;
         if nearest.is_some() {
             at += phrase(at, &["to me", "here", "from here", "to here"]).unwrap_or(0);
             return Some((StreetRef::Nearest, at));

@@ -37,6 +37,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
     beside_somebody(lexemes);
     nearest_of_place(lexemes);
     both_of_them(lexemes);
+    offers(lexemes, names);
     sellers(lexemes);
     of_one_noun(lexemes);
     let is = |lexeme: &Lexeme, word: &str| matches!(&lexeme.token, Token::Word(own) if own == word);
@@ -310,6 +311,46 @@ fn needed_for(lexemes: &mut Vec<Lexeme>) {
 /// Whether a thing is named from here on.
 fn is_begun(lexeme: &Lexeme) -> bool {
     matches!(&lexeme.token, Token::Word(word) if ["the", "a", "an", "my", "our", "that", "this"].contains(&word.as_str()))
+}
+
+/// "The one that sells salad", "the building with the ice cream", "the stand where you get coffee": the building that sells what is known to be
+/// sold here.
+fn offers(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+    #[rustfmt::skip]
+    const PLACES: &[&str] = &["building", "shop", "store", "house", "place", "one", "stand", "stall", "spot", "booth", "kiosk", "counter", "joint", "outlet"];
+    #[rustfmt::skip]
+    const OFFERS: &Phrases = &Phrases::of(&["that sells", "which sells", "that sell", "selling", "that has", "which has", "that offers", "which offers", "offering", "that serves", "which serves", "serving", "that makes", "which makes", "that does", "which does", "that bakes", "which bakes",
+        "where they sell", "where they have", "where they serve", "where they make", "where they offer", "where they do", "where they bake", "where you get", "where you can get", "where you buy", "where you can buy", "where you find", "where you can find", "where i get", "where i can get", "where i buy",
+        "where i can buy", "where we get", "where we can get", "where we buy", "where we can buy", "where one gets", "where one can get", "where one buys", "where one can buy", "where people get", "where people buy", "where people can get", "where people can buy", "where there is", "where theres", "you get", "i get"]);
+    const WITH: &Phrases = &Phrases::of(&["with", "with all", "for"]);
+    #[rustfmt::skip]
+    const ARTICLES: &Phrases = &Phrases::of(&["a", "an", "some", "the", "their", "your", "my", "our", "a cup of", "a piece of", "a slice of", "a loaf of", "a bottle of", "a bowl of", "a mug of", "good", "fresh", "the good", "the fresh", "the best", "cold", "hot", "the cold", "the hot"]);
+    let mut at = 1;
+    while at + 2 < lexemes.len() {
+        let noun = word(lexemes, at);
+        let is_the = |at: usize| matches!(word(lexemes, at), "the" | "that" | "this" | "our" | "your");
+        let is_led = is_the(at - 1) || noun != "one" && at > 1 && is_the(at - 2);
+        // "The Kiosk that sells newspapers" is called so, and so is "the Corner Shop".
+        let is_name = || names.exact(&lexemes[at..]).or_else(|| names.exact(&lexemes[at - 1..])).is_some();
+        let is_place = is_led && PLACES.contains(&noun) && !is_name();
+        let behind = &lexemes[at + 1..];
+        let with = || longest_phrase(behind, WITH).filter(|_| noun != "one");
+        let goods = longest_phrase(behind, OFFERS).or_else(with).filter(|_| is_place).and_then(|words| {
+            let sold = &behind[words..];
+            let article = longest_phrase(sold, ARTICLES).unwrap_or(0);
+            let (goods, _) = names.goods(&sold[article..])?;
+            // Where only one sells it, it is meant, whatever kind of building it is.
+            let is_class = matches!(noun, "shop" | "store") && names.sellers(&goods).len() > 1;
+            let class = if is_class { noun } else { "building" };
+            Some((at + 1 + words + article, format!("{class} that sells")))
+        });
+        if let Some((from, plainly)) = goods {
+            let place = lexemes[at].clone();
+            let plain: Vec<Lexeme> = words_at(&place, &plainly).collect();
+            lexemes.splice(at..from, plain);
+        }
+        at += 1;
+    }
 }
 
 /// "The place that sells cake" is a building that does, and "where one can buy" is where you can.

@@ -40,7 +40,7 @@ const GONE: &Phrases = &Phrases::of(&["gone", "removed", "deleted", "away", "tak
 #[rustfmt::skip]
 pub(super) const TRADES: &Phrases = &Phrases::of(&["have their places exchanged", "change their places", "switch their places", "switch their positions", "swap their positions", "swap their spots", "exchange their positions", "change their positions", "exchange spots", "change spots", "trade their places", "swap their places", "exchange their places", "change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
     "exchange places", "swap positions", "switch positions", "exchange positions", "be swapped", "be switched", "swapped", "trade positions",
-    "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"]);
+    "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around", "change place", "swap place", "exchange place", "switch place", "trade place", "change seats", "swap seats", "switch seats", "exchange seats", "trade seats", "swap round", "switch round", "swapped round", "switched round"]);
 /// Before a colour.
 #[rustfmt::skip]
 const IN_COLOUR: &Phrases = &Phrases::of(&["in", "into", "to", "a", "an", "the", "all", "as", "colour", "color", "bright", "light", "deep", "nice", "lovely",

@@ -6,10 +6,12 @@
 
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
-use super::super::numbers::{self, NUMERALS};
+use super::super::numbers;
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
-use super::words::{FACTORS, SKIES, VERBS, WAYS, Way};
+use super::forms::word_at;
+use super::replaced::{is_article, replaced};
+use super::words::{FACTORS, VERBS, WAYS, Way};
 
 /// That what follows is meant, and what stood before is not.
 #[rustfmt::skip]
@@ -35,9 +37,16 @@ const WEAK: &Phrases = &Phrases::of(&[
     "er",
 ]);
 
+/// Of the weak ones, those behind which a new thing takes the place of the one just before: "a toolbox, sorry, a ladder".
+const PUTS_RIGHT: &[&str] =
+    &["sorry", "actually", "err", "er", "say", "lets say", "let us say", "let me say"];
+/// What is no other thing behind them: "a bench, say, a bit further on".
+const NO_THINGS: &[&str] = &["bit", "lot", "few", "little", "couple", "moment", "second", "minute", "while"];
+
 /// Puts what was taken back right, as often as it was.
 pub(super) fn put_right(lexemes: &mut Vec<Lexeme>) {
     without_dangling(lexemes);
+    side_by_side(lexemes);
     for _ in 0..MOST {
         let Some(right) = (1..lexemes.len()).find_map(|at| corrected(lexemes, at)) else { return };
         *lexemes = right;
@@ -73,6 +82,45 @@ pub(super) const fn needs_anchor(way: Way) -> bool {
     !matches!(way, Way::Here | Way::There | Way::InItsPlace | Way::Anywhere)
 }
 
+/// "Two, no, three benches", "the blue, I mean the red car": of two numbers or colours with nothing between them but words that take back, the
+/// second is meant.
+fn side_by_side(lexemes: &mut Vec<Lexeme>) {
+    let mut at = 0;
+    while at < lexemes.len() {
+        match beside(lexemes, at) {
+            Some(behind) => drop(lexemes.drain(at..behind)),
+            None => at += 1,
+        }
+    }
+}
+
+/// Where the second of two numbers or colours stands, behind the first and words that take it back.
+fn beside(lexemes: &[Lexeme], at: usize) -> Option<usize> {
+    let (is_paint, words) = value(&lexemes[at..])?;
+    let (mut next, mut is_said) = (at + words, false);
+    loop {
+        let rest = lexemes.get(next..)?;
+        let said = longest_phrase(rest, TAKEN_BACK);
+        is_said |= said.is_some();
+        let Some(words) = said.or(rest.first().is_some_and(is_mark).then_some(1)) else { break };
+        next += words;
+    }
+    // "The blue, I mean the red car" has its article already.
+    let is_led = at > 0 && is_article(&lexemes[at - 1..at]);
+    let the = longest_phrase(&lexemes[next..], &["the", "a", "an"]).filter(|_| is_led).unwrap_or(0);
+    let (is_other_paint, _) = value(&lexemes[next + the..])?;
+    (is_said && is_paint == is_other_paint).then_some(next + the)
+}
+
+/// A colour, or with `false` a number, at the start; "a" and "one" are none.
+fn value(lexemes: &[Lexeme]) -> Option<(bool, usize)> {
+    if let Some((_, words)) = longest(lexemes, PAINTS) {
+        return Some((true, words));
+    }
+    let is_plain = longest_phrase(lexemes, &["a", "an", "one", "half"]).is_none();
+    numbers::number(lexemes).filter(|_| is_plain).map(|(_, words)| (false, words))
+}
+
 /// Nobody takes back more than that in a sentence.
 const MOST: usize = 3;
 
@@ -84,9 +132,10 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     let from = mark + (mark..lexemes.len()).take_while(|at| is_mark(&lexemes[*at])).count();
     let rest = lexemes.get(from..)?;
     let end = from + rest.iter().position(is_mark).unwrap_or(rest.len());
-    let mut is_sure = true;
+    let (mut is_sure, mut is_put_right) = (true, false);
     let (from, to, behind) = if let Some(words) = longest_phrase(rest, TAKEN_BACK) {
         is_sure = longest_phrase(rest, WEAK) != Some(words);
+        is_put_right = longest_phrase(rest, PUTS_RIGHT) == Some(words);
         // "The robot, make that one orange" speaks of another.
         let part = lexemes[..mark].iter().rposition(is_mark).map_or(0, |at| at + 1);
         if longest_phrase(rest, &["make that one", "have that one", "make this one"]).is_some()
@@ -95,11 +144,9 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
             return None;
         }
         // "No clouds" takes nothing back, and "no, clouds" does.
-        if longest(rest, &WAYS).is_some() {
-            return None;
-        }
         let is_no = words == 1 && longest_phrase(rest, &["no"]).is_some();
-        if is_no && !rest.get(1).is_some_and(is_mark) && longest(&rest[1..], &VERBS).is_none() {
+        let is_none = is_no && !rest.get(1).is_some_and(is_mark) && !goes_on(&rest[1..]);
+        if is_none || longest(rest, &WAYS).is_some() {
             return None;
         }
         let mut from = from + words;
@@ -128,13 +175,49 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     if meant.is_empty() {
         return None;
     }
-    let meant = &of_what_was_named(before, meant)[..];
+    let meant = &with_one(of_what_was_named(before, meant))[..];
+    let is_sure = is_sure || is_put_right && is_new_for_new(before, meant);
     let (start, stop) = replaced(before, meant, is_sure)?;
     let mut right = before[..start].to_vec();
     right.extend(with_its_noun(meant, &before[start..stop]));
     right.extend_from_slice(&before[stop..]);
-    right.extend_from_slice(&lexemes[behind..]);
+    right.extend_from_slice(behind_it(&lexemes[behind..]));
     Some(right)
+}
+
+/// What stands behind what is meant; a place there is its own: "a toolbox, sorry, a ladder, behind the bakery".
+fn behind_it(rest: &[Lexeme]) -> &[Lexeme] {
+    match rest {
+        [comma, place @ ..] if comma.token == Token::Comma && longest(place, &WAYS).is_some() => place,
+        _ => rest,
+    }
+}
+
+/// Behind "no" and without a mark: "no a taxi", "no the other one", "no three", "no behind it". "No clouds" takes nothing back.
+fn goes_on(rest: &[Lexeme]) -> bool {
+    longest(rest, &VERBS).is_some()
+        || longest_phrase(rest, &["a", "an", "the", "behind", "beside", "near", "between", "opposite"])
+            .is_some()
+        || longest(rest, &WAYS).is_some_and(|(_, words)| words > 1)
+        || numbers::count(rest).is_some()
+}
+
+/// "The blue car, I mean the red": the red one.
+fn with_one(mut meant: Vec<Lexeme>) -> Vec<Lexeme> {
+    let is_bare = longest_phrase(&meant, &["the"]).is_some()
+        && longest(&meant[1..], PAINTS).is_some_and(|(_, words)| words + 1 == meant.len());
+    if let Some(place) = meant.last().filter(|_| is_bare).cloned() {
+        meant.push(word_at(&place, "one"));
+    }
+    meant
+}
+
+/// "A toolbox, sorry, a ladder": a new thing just behind another that has no place yet.
+fn is_new_for_new(before: &[Lexeme], meant: &[Lexeme]) -> bool {
+    let is_thing =
+        |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if !NO_THINGS.contains(&word.as_str()));
+    let is_new = longest_phrase(meant, &["a", "an"]).is_some() || numbers::count(meant).is_some();
+    is_new && meant.get(1).is_some_and(is_thing) && super::breaks::new_before(before, before.len()).is_some()
 }
 
 /// "No wait, three of them": the number that is meant.
@@ -191,92 +274,10 @@ fn of_what_was_named(before: &[Lexeme], meant: &[Lexeme]) -> Vec<Lexeme> {
     plain
 }
 
-/// Of a colour or a size what it takes the place of.
-fn look_before(before: &[Lexeme], meant: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
-    let last = |fits: &dyn Fn(usize) -> Option<usize>| {
-        (clause..before.len()).rev().find_map(|at| fits(at).map(|words| (at, at + words)))
-    };
-    if longest(meant, PAINTS).is_some() {
-        return last(&|at| longest(&before[at..], PAINTS).map(|(_, words)| words));
-    }
-    let (from, to) = last(&|at| longest(&before[at..], &FACTORS).map(|(_, words)| words))?;
-    Some((whole_factor(before, from), to))
-}
-
-/// Whether some words are a colour or a size, and no more.
-fn is_look(meant: &[Lexeme]) -> bool {
-    longest(meant, PAINTS).is_some_and(|(_, words)| words == meant.len())
-        || longest(meant, &FACTORS).is_some_and(|(_, words)| words == meant.len())
-}
-
 /// How many words say once more that something is taken back, before what is meant.
 fn said_again(rest: &[Lexeme]) -> Option<usize> {
     let meant = longest_phrase(rest, &["i mean", "i meant", "make that", "rather"]);
     meant.or_else(|| longest_phrase(rest, TAKEN_BACK).filter(|words| rest.get(*words).is_some_and(is_mark)))
-}
-
-/// Which of the words before are taken back by those that are meant.
-fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize, usize)> {
-    let clause = before.iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);
-    let all = before.len();
-    let last = |fits: &dyn Fn(usize) -> Option<usize>| {
-        (clause..all).rev().find_map(|at| fits(at).map(|words| (at, at + words)))
-    };
-    if let Some((_, words)) =
-        numbers::number(meant).filter(|(_, words)| *words == meant.len() && !is_article(meant))
-    {
-        return last(&|at| {
-            numbers::number(&before[at..]).filter(|_| is_number(&before[at])).map(|(_, words)| words)
-        });
-    }
-    if is_look(meant) {
-        return look_before(before, meant, clause);
-    }
-    // "A white tent, no, a red one".
-    if let Some(found) = new_coloured_before(before, meant, clause) {
-        return Some(found);
-    }
-    if longest(meant, &SKIES).is_some() {
-        return last(&|at| longest(&before[at..], &SKIES).map(|(_, words)| words)).or(Some((clause, all)));
-    }
-    if longest(meant, &VERBS).is_some() {
-        // An order is taken back as a whole.
-        return last(&|at| longest(&before[at..], &VERBS).filter(|_| is_sure).map(|_| all - at));
-    }
-    if longest(meant, &WAYS).is_some() {
-        return last(&|at| longest(&before[at..], &WAYS).map(|_| all - at))
-            .map(|(from, _)| (whole_way(before, from), all));
-    }
-    let noun =
-        (0..meant.len()).find_map(|at| category(&meant[at..]).map(|(class, words)| (class, at + words)));
-    // "The white car, I mean the black one": the colour is taken back.
-    if let [the, paint @ .., one] = meant
-        && the.token == Token::Word("the".to_owned())
-        && one.token == Token::Word("one".to_owned())
-        && longest(paint, PAINTS).is_some_and(|(_, words)| words == paint.len())
-    {
-        return coloured_before(before, clause);
-    }
-    if is_article(meant) || meant.first().is_some_and(is_number) {
-        // "A seat in front of the clinic, no, two seats".
-        if let Some((class, words)) = noun
-            && words == meant.len()
-            && let Some((from, to)) =
-                last(&|at| category(&before[at..]).filter(|(own, _)| *own == class).map(|(_, words)| words))
-        {
-            let start = (clause..from).rev().take(4).find(|at| is_number(&before[*at]));
-            return Some((start.unwrap_or(from), to));
-        }
-        let begins = |at: usize| {
-            is_number(&before[at])
-                || is_article(&before[at..])
-                || longest_phrase(&before[at..], &["another"]).is_some()
-        };
-        return last(&|at| (is_sure && begins(at)).then_some(all - at));
-    }
-    let is_noun = is_sure && meant.len() <= LONGEST && noun.is_none_or(|(_, words)| words == meant.len());
-    let is_word = matches!(before.last()?.token, Token::Word(_));
-    (is_noun && is_word && all > clause).then_some((all - 1, all))
 }
 
 /// "The black one" in the place of the white car is the black car.
@@ -302,64 +303,33 @@ fn with_its_noun(meant: &[Lexeme], instead_of: &[Lexeme]) -> Vec<Lexeme> {
     }
 }
 
-/// The last thing before that is told by its colour: "the white car".
-fn coloured_before(before: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
-    (clause..before.len()).rev().find_map(|at| {
-        if before[at].token != Token::Word("the".to_owned()) {
-            return None;
-        }
-        let (_, paint) = longest(&before[at + 1..], PAINTS)?;
-        let (_, noun) = category(&before[at + 1 + paint..])?;
-        Some((at, at + 1 + paint + noun))
-    })
-}
-
-/// Behind "a red one" the last new thing before that is told by its colour, up to one word behind it: "a white tent".
-fn new_coloured_before(before: &[Lexeme], meant: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
-    let [a, paint @ .., one] = meant else { return None };
-    let is_coloured = matches!(&a.token, Token::Word(word) if word == "a" || word == "an")
-        && one.token == Token::Word("one".to_owned())
-        && longest(paint, PAINTS).is_some_and(|(_, words)| words == paint.len());
-    (clause..before.len()).rev().filter(|_| is_coloured).find_map(|at| {
-        longest_phrase(&before[at..], &["a", "an"])?;
-        let (_, paint) = longest(&before[at + 1..], PAINTS)?;
-        let end = at + 1 + paint + 1;
-        matches!(before.get(end - 1)?.token, Token::Word(_)).then_some((at, end))
-    })
-}
-
-/// The first word of a size of several words that ends in a shorter one: "three times as big".
-fn whole_factor(before: &[Lexeme], from: usize) -> usize {
-    (from.saturating_sub(4)..from)
-        .find(|at| longest(&before[*at..], &FACTORS).is_some_and(|(_, words)| at + words > from))
-        .unwrap_or(from)
-}
-
-/// A noun without an article has no more words than that.
-const LONGEST: usize = 3;
-
-/// The first word of a relation of several words that ends in a shorter one: "on top of".
-fn whole_way(before: &[Lexeme], from: usize) -> usize {
-    (from.saturating_sub(3)..from)
-        .find(|at| longest(&before[*at..], &WAYS).is_some_and(|(_, words)| at + words > from))
-        .unwrap_or(from)
-}
-
-/// Whether an article stands first.
-fn is_article(lexemes: &[Lexeme]) -> bool {
-    longest_phrase(lexemes, &["a", "an", "the", "some"]).is_some()
-}
-
-/// Whether a word is a number, an article among them.
-fn is_number(lexeme: &Lexeme) -> bool {
-    match &lexeme.token {
-        Token::Number(_) => true,
-        Token::Word(word) => NUMERALS.iter().any(|(numeral, _)| numeral == word),
-        _ => false,
-    }
-}
-
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     TAKEN_BACK.iter().chain(BEHIND).flat_map(|phrase| phrase.split(' '))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::lexer::rewritten;
+    use super::put_right;
+
+    #[test]
+    fn what_is_meant_takes_the_place_of_what_is_of_its_kind() {
+        for (said, meant) in [
+            ("put a toolbox, sorry, a ladder, behind the bakery", "put a ladder behind the bakery"),
+            ("put two, no, three benches here", "put three benches here"),
+            ("put two no three benches here", "put three benches here"),
+            ("paint the blue, i mean the red car green", "paint the red car green"),
+            ("paint the blue, sorry, red car green", "paint the red car green"),
+            ("remove the blue car, i mean the red", "remove the red car"),
+            ("put a boat, no a taxi by the oak", "put a taxi by the oak"),
+            ("put a bucket by the oak, no, by the lamp", "put a bucket by the lamp"),
+            // Nothing is taken back by these.
+            ("put a bench, well away from the oak", "put a bench , well away from the oak"),
+            ("put two benches and three chairs here", "put two benches and three chairs here"),
+            ("no clouds, please", "no clouds , please"),
+        ] {
+            assert_eq!(rewritten(said, put_right), meant, "{said}");
+        }
+    }
 }

@@ -22,6 +22,7 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["dug"], "dog"), (&["dugs"], "dogs"), (&["bairns"], "children"), (&["richt"], "right"), (&["haud"], "hold"), (&["guid"], "good"),
     (&["em"], "them"), (&["xcept", "exept"], "except"), (&["til"], "until"), (&["w"], "with"),
     (&["doggo", "doggos", "pupper"], "dog"), (&["outta"], "out of"), 
+    (&["gizza"], "give us a"), (&["giz"], "give us"), (&["dyou"], "do you"), (&["couldya"], "could you"), (&["wouldya"], "would you"), (&["canya"], "can you"),
     (&["lil"], "little"), (&["nxt to"], "next to"), (&["dont wanna"], "dont want to"), (&["aint"], "is not"), (&["tryna"], "trying to"),
     (&["astern of"], "behind"),
     (&["mek"], "make"), (&["summat"], "something"), (&["nowt"], "nothing"), (&["owt"], "anything"), (&["them two"], "the two"),

@@ -308,7 +308,7 @@ fn told_plainly(lexemes: &[Lexeme]) -> Vec<Lexeme> {
 }
 
 /// Each sentence by the first turn of phrase that it is, two of them at most.
-fn told_by(lexemes: &[Lexeme], tables: &[&Turns]) -> Vec<Lexeme> {
+pub(super) fn told_by(lexemes: &[Lexeme], tables: &[&Turns]) -> Vec<Lexeme> {
     let mut told = Vec::with_capacity(lexemes.len());
     let turned = |words: &[Lexeme]| {
         tables.iter().copied().flatten().find_map(|(said, meant)| by_turn(words, said, meant))

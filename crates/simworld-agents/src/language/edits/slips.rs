@@ -25,6 +25,10 @@ const SHORT_FORMS: &[&str] = &["st", "dr", "mr", "mrs", "ms", "ave", "rd", "no",
 #[rustfmt::skip]
 const USUAL: &[(&str, &str)] = &[
     ("ad", "add"),
+    ("wiat", "wait"),
+    ("wati", "wait"),
+    ("wiating", "waiting"),
+    ("watiing", "waiting"),
     ("nxt", "next"),
     ("teh", "the"),
     ("hte", "the"),

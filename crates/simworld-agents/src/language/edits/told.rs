@@ -21,7 +21,7 @@ const TAKES_BACK: &Phrases = &Phrases::of(&["not the", "not a", "not that", "not
     "may we", "could i", "can i", "may i", "i suggest", "i propose", "id say", "is needed", "are needed", "is required", "are required", "is missing", "are missing", "no longer", "no more", "faces", "facing"]);
 /// That somebody asks for something, before what it is.
 #[rustfmt::skip]
-const WISHES: &Phrases = &Phrases::of(&["want", "wants", "wanted", "need", "needs", "needed", "would like", "would love", "would adore", "adore", "adores", "id like", "id love", "wed like", "wed love", "lack", "lacks", "could use", "could do with", "wish", "wishes", "fancy", "fancies",
+pub(super) const WISHES: &Phrases = &Phrases::of(&["want", "wants", "wanted", "need", "needs", "needed", "would like", "would love", "would adore", "adore", "adores", "id like", "id love", "wed like", "wed love", "lack", "lacks", "could use", "could do with", "wish", "wishes", "fancy", "fancies",
     "deserve", "deserves", "require", "requires", "request", "requests", "ask for", "asks for", "asked for", "demand", "demands", "dream of", "long for", "should", "must", "ought", "shall", "has to", "have to", "had better", "is to", "are to",
     "should get", "should have", "prefer", "prefers", "would rather", "id rather", "expect", "expects", "belongs", "would look", "would be", "looks better", "could be", "better", "mustnt", "shouldnt", "supposed"]);
 /// What begins an order that is not about the scene, or not understood.
@@ -377,7 +377,7 @@ fn is_of_an_order(word: &str) -> bool {
 }
 
 /// Whether a class is of people alone.
-fn is_of_people(class: &super::super::lexicon::Category) -> bool {
+pub(super) fn is_of_people(class: &super::super::lexicon::Category) -> bool {
     use simworld_core::scene::EntityKind;
     !class.kinds().is_empty() && class.kinds().iter().all(|kind| *kind == EntityKind::Person)
 }

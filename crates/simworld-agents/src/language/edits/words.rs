@@ -70,7 +70,7 @@ const VERB_ROWS: &[(&[&str], Verb)] = &[
     (&["move", "lift", "relocate", "shift", "bring", "drag", "push", "pull", "carry", "transfer", "teleport", "reposition",
         "slide", "send", "nudge", "budge", "shove", "scoot", "haul", "lug", "roll", "wheel", "heave", "cart",
         "usher", "lead", "escort", "guide", "rehome", "resite", "reseat", "migrate", "shuffle", "swing", "hop", "wander", "drive", "tow", "walk", "translate", "return", "ferry", "advance", "convey", "displace", "trundle", "steer",
-        "hand over"], Verb::Move),
+        "hand over", "yank", "hoik", "hoick", "heft", "schlep", "scooch"], Verb::Move),
     (&["put", "place", "set", "set up", "drop", "park", "stick", "position", "leave", "lay", "put down", "stand",
         "locate", "set down", "plop", "pop", "throw", "chuck", "plonk", "deploy", "arrange", "situate", "dump",
         "slap", "plunk", "mount", "line up", "scatter", "squeeze", "fit", "wedge", "cram", "tuck",
@@ -99,7 +99,8 @@ const VERB_ROWS: &[(&[&str], Verb)] = &[
         "i could live without", "bid farewell to", "farewell to", "goodbye to", "bye bye to", "good riddance to", "i have had enough of", "ive had enough of", "we have had enough of", "weve had enough of", "im done with", "i am done with",
         "were done with", "we are done with", "we dont want any", "part with", "strike out", "cross out", "rub out", "write off", "send packing", "wipe away", "clear up",
         "put an end to", "make short work of", "have done with", "call time on", "drop", "im over", "i am over", "we are over", "ive no use for", "weve no use for", "lets be rid of", "relieve me of", "relieve us of", "unload", "decommission", "retire", "im sick of looking at", "i am sick of looking at", "im tired of looking at", "i am tired of looking at", "im sick of seeing", "im tired of seeing", "i am tired of seeing", "were tired of looking at", "were sick of looking at",
-        "i cant look at", "i can not look at", "i cannot look at", "i can no longer look at", "im fed up with", "i am fed up with", "were fed up with", "we are fed up with", "were sick of", "we are sick of", "were tired of", "we are tired of"], Verb::Remove),
+        "i cant look at", "i can not look at", "i cannot look at", "i can no longer look at", "im fed up with", "i am fed up with", "were fed up with", "we are fed up with", "were sick of", "we are sick of", "were tired of", "we are tired of",
+        "turf out", "boot out", "bin off", "whisk away", "spirit away", "tidy away", "pack away", "kill off", "chase away", "shoo away", "expel", "eject"], Verb::Remove),
     (&["replace", "substitute"], Verb::Replace),
     (&["rotate", "turn", "spin", "swivel", "orient", "orientate", "face", "aim", "point", "twist", "flip", "revolve", "pivot", "gyrate", "yaw"], Verb::Turn),
     (CLOSING, Verb::Close),
@@ -107,7 +108,7 @@ const VERB_ROWS: &[(&[&str], Verb)] = &[
     (&["swap", "exchange", "switch", "trade", "interchange", "swap over", "swap around", "change places of", "change the places of", "change of place", "change place of", "transpose", "swop"], Verb::Swap),
     (&["paint", "repaint", "recolour", "recolor", "colour", "color", "dye", "change the colour of",
         "change the color of", "tint", "set the colour of", "set the color of", "respray", "spray", "spray paint",
-        "change color of", "change colour of"], Verb::Paint),
+        "change color of", "change colour of", "daub"], Verb::Paint),
     (&["enlarge", "scale up", "grow", "magnify", "blow up", "bump up", "beef up", "size up", "inflate", "make bigger", "increase", "expand", "increase the size of", "upscale",
         "supersize"], Verb::Grow),
     (&["shrink", "scale down", "reduce", "reduce the size of", "downscale", "decrease the size of"], Verb::Shrink),
@@ -291,7 +292,12 @@ pub(super) const CLOSING: &[&str] = &["close", "close down", "close off", "shut"
 #[rustfmt::skip]
 pub(super) const OPENING: &[&str] = &["open", "reopen", "re open", "open up", "unblock", "unbar", "unseal", "unclose",
     "let traffic back onto", "let the traffic back onto", "let cars back onto", "let the cars back onto",
-    "let traffic onto", "let cars onto", "allow traffic on", "allow cars on", "clear for traffic", "open up again"];
+    "let traffic onto", "let cars onto", "allow traffic on", "allow cars on", "clear for traffic", "open up again",
+    "let traffic through", "let the traffic through", "let cars through", "let the cars through", "let traffic back through", "let the traffic back through",
+    "let cars back through", "let the cars back through", "let traffic into", "let the traffic into", "let traffic back into", "let the traffic back into",
+    "let traffic use", "let the traffic use", "let cars use", "let the cars use", "let traffic along", "let the traffic along", "let people drive through",
+    "let people drive on", "let people drive down", "let vehicles through", "let drivers through", "lift the closure of", "lift the closure on", "lift the ban on",
+    "end the closure of", "undo the closure of"];
 
 /// How a thing is to change in size, with the factor.
 pub(super) static FACTORS: LazyLock<Index<f64>> = LazyLock::new(|| Index::of(FACTOR_ROWS));

@@ -1,0 +1,166 @@
+//! A sentence from its words to its wishes; and once more without what in it asks for nothing, where it was refused.
+
+use simworld_core::scene::Scene;
+
+use super::super::lexer::Lexeme;
+use super::super::names::Names;
+use super::super::parser::shortened;
+use super::super::streets::StreetNames;
+use super::super::{LONGEST_SENTENCE, RANGE, hearing};
+use super::attempts::{is_known, is_nowhere, wishes_of};
+use super::memo::Memo;
+use super::parse::Reader;
+use super::resolve::Finder;
+use super::wish::Wish;
+use super::{
+    Focus, Reading, breaks, casual, doubted, dress_new, gone_by_name, gone_once, made_once, narrowed, nth,
+    others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows, slips, spared, spoken,
+    talk, view_of, which, whole, wording,
+};
+use crate::editing::{EditError, Stock};
+
+/// Reads a sentence; names are those of the scene. What is refused as it stands is heard anew without what in it asks for nothing.
+pub(crate) fn read(
+    words: &str,
+    scene: &dyn Scene,
+    stock: &Stock,
+    focus: &Focus,
+) -> Result<Reading, EditError> {
+    if words.chars().count() > LONGEST_SENTENCE {
+        let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
+        return Err(EditError::NotUnderstood { words: shortened(words), fragment: String::new(), hint });
+    }
+    let ear = Ear { words, scene, stock, focus };
+    let heard = hearing::hear(words, None);
+    let read = ear.read(heard.clone());
+    if ear.is_granted(&read) { read } else { ear.without_chatter(heard, read) }
+}
+
+/// A sentence, and the scene in which it is heard.
+#[derive(Clone, Copy)]
+struct Ear<'a> {
+    words: &'a str,
+    scene: &'a dyn Scene,
+    stock: &'a Stock,
+    focus: &'a Focus,
+}
+
+impl Ear<'_> {
+    /// The wishes of what was heard, or of some of it.
+    fn read(&self, mut lexemes: Vec<Lexeme>) -> Result<Reading, EditError> {
+        let Self { words, scene, stock, focus } = *self;
+        let view = view_of(scene, focus);
+        let names = Names::new(scene, focus.from, RANGE);
+        put_plainly(words, &mut lexemes, &names, (stock, &focus.streets));
+        let names = names.with_made(&lexemes, &stock.catalogue);
+        let first = nth::first_of(&mut lexemes);
+        let memo = Memo::default();
+        let reader =
+            Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+        let nearest = reader.with_nearest_to_street();
+        let reader = Reader { lexemes: nearest.as_deref().unwrap_or(&lexemes), ..reader };
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let topics = reader.with_topics(&finder);
+        let reader = Reader { lexemes: topics.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let pointed = reader.with_what_was_pointed_at();
+        let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let numbered = reader.with_number();
+        let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let stood = reader.with_old_places(&finder);
+        let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let left = reader.with_what_is_left(&finder);
+        let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let several = reader.with_several_nearest(&finder);
+        let reader = Reader { lexemes: several.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let mut wishes = wishes_of(reader, scene, stock, focus)?;
+        if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
+            return Err(reader.not_understood("say of what every second one is meant").into());
+        }
+        dress_new(&mut wishes);
+        if focus.it.is_none() {
+            gone_by_name(&mut wishes);
+        }
+        gone_once(&mut wishes);
+        made_once(&mut wishes);
+        paint_at_once(&mut wishes, &finder);
+        Ok(Reading { words: words.to_owned(), wishes })
+    }
+
+    /// Whether a sentence is understood, somebody has what it asks for, and what it is about first is there; or whether what is wrong with it
+    /// is something else.
+    fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
+        match read {
+            Ok(reading) => reading.lacking(self.stock).is_empty() && !self.is_missing(reading),
+            Err(refused) => !matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. }),
+        }
+    }
+
+    /// Whether what the first wish is about is not there. What later wishes are about may be made by earlier ones.
+    fn is_missing(&self, reading: &Reading) -> bool {
+        let Self { scene, stock, focus, .. } = *self;
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
+        reading.wishes.first().is_some_and(|readings| readings.iter().all(missing))
+    }
+
+    /// The sentence without what in it asks for nothing, if that is granted; or else the answer that says most.
+    fn without_chatter(
+        &self,
+        mut heard: Vec<Lexeme>,
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let Self { words, scene, stock, focus } = *self;
+        let names = Names::new(scene, focus.from, RANGE).with_made(&heard, &stock.catalogue);
+        slips::correct(words, &mut heard, &names, stock, &focus.streets);
+        let (view, memo) = (view_of(scene, focus), Memo::default());
+        let reader =
+            Reader { words, lexemes: &heard, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+        let mut answer = None;
+        for way in reader.without_chatter(&|wish: &Wish| is_known(wish, stock, false)) {
+            let anew = self.read(way.lexemes);
+            // What was left out may have said where.
+            let stands_nowhere = |anew: &Reading| anew.wishes.iter().flatten().any(is_nowhere);
+            if way.named && anew.as_ref().is_ok_and(stands_nowhere) {
+                continue;
+            }
+            if self.is_granted(&anew) {
+                return anew;
+            }
+            if answer.is_none() && !matches!(anew, Err(EditError::NotUnderstood { .. })) {
+                answer = Some(anew);
+            }
+        }
+        match answer {
+            Some(answer) if matches!(read, Err(EditError::NotUnderstood { .. })) => answer,
+            _ => read,
+        }
+    }
+}
+
+/// Puts the words of a sentence plainly, one thing at a time, before it is read.
+fn put_plainly(
+    words: &str,
+    lexemes: &mut Vec<Lexeme>,
+    names: &Names<'_>,
+    (stock, streets): (&Stock, &StreetNames),
+) {
+    breaks::in_plain_words(words, lexemes);
+    wording::in_plain_words(words, lexemes);
+    respelt::in_plain_spelling(words, lexemes);
+    talk::in_plain_words(words, lexemes, names);
+    doubted::in_plain_words(lexemes);
+    casual::in_plain_words(lexemes);
+    retold::in_plain_words(lexemes);
+    slips::correct(words, lexemes, names, stock, streets);
+    spared::in_plain_words(lexemes);
+    phrased::in_plain_words(words, lexemes, names);
+    narrowed::in_plain_words(lexemes);
+    plain::in_plain_words(words, lexemes, names);
+    others::in_plain_words(lexemes);
+    which::in_plain_words(lexemes);
+    whole::in_plain_words(lexemes);
+    passing::leave_out(lexemes);
+    rows::on_both_sides(lexemes, streets);
+    repairs::put_right(lexemes);
+    spoken::name_streets(lexemes, streets);
+}
