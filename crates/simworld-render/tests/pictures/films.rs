@@ -136,7 +136,7 @@ fn two_layers_lie_over_one_another() {
                 &scene(&[(&pane("whole", color, 255, Transparency::Opaque), distance)]),
             ))
         };
-        let (red, green, blue) = (whole(RED, 4.0), whole(GREEN, 5.0), whole(BLUE, 6.0));
+        let (red, green) = (whole(RED, 4.0), whole(GREEN, 5.0));
         let (thin, thick) = (51.0 / 255.0, 178.0 / 255.0);
         for (what, layers, wanted) in [
             (

@@ -67,7 +67,7 @@ impl Reading {
         Err(refused.unwrap_or(EditError::NotUnderstood {
             words,
             fragment: String::new(),
-            hint: super::UNDERSTOOD.to_owned(),
+            hint: super::parse::UNDERSTOOD.to_owned(),
         }))
     }
 }
