@@ -234,7 +234,12 @@ impl Layout<'_> {
                 let across = along + std::f64::consts::FRAC_PI_2;
                 let turned =
                     if (foot - at).dot(&direction(across)) < 0.0 { std::f64::consts::PI } else { 0.0 };
-                let facings = if has_front { vec![across + turned] } else { vec![along, across] };
+                let facings = match (has_front, grounds) {
+                    // The nearest street may end there, and lead to it with its end.
+                    (true, Grounds::Beyond) => vec![heading(&(foot - at))],
+                    (true, Grounds::Within) => vec![across + turned],
+                    (false, _) => vec![along, across],
+                };
                 for facing in facings {
                     let taken = ground_box(at, facing, size);
                     let houses = self.city.buildings.iter();
