@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
-use super::lexer::Lexeme;
+use super::lexer::{Lexeme, is_mark, word_of};
 use super::phrases::{Index, Phrases};
+use super::verbs::longest_verb;
 
 fn index(phrases: &'static [&'static str]) -> Index<()> {
     Index::new(phrases.iter().map(|phrase| (*phrase, ())))
@@ -18,7 +19,11 @@ pub(super) fn filler(lexemes: &[Lexeme]) -> Option<usize> {
 /// How many tokens join two orders here.
 pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
     static INDEX: LazyLock<Index<()>> = LazyLock::new(|| index(JOINTS));
-    INDEX.longest(lexemes).map(|((), words)| words)
+    let words = INDEX.longest(lexemes).map(|((), words)| words)?;
+    // "Third, go to ...", and "the third person".
+    let counts = ["third", "fourth"].contains(&word_of(&lexemes[0]));
+    let leads = lexemes.get(words).is_some_and(is_mark) || longest_verb(&lexemes[words..]).is_some();
+    (!counts || leads).then_some(words)
 }
 
 /// Ways to join two orders.

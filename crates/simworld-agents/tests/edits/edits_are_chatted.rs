@@ -32,7 +32,6 @@ fn whole_sentences_that_ask_for_nothing_are_left_out() {
         "quarter",
         "put a bird bath next to the postbox",
         &[
-            "The mayor phoned me twice about this. Put a bird bath next to the postbox.",
             "Granny needs to rest on the way. Put a bird bath next to the postbox.",
             "Hiya, cold hands here, put a bird bath next to the postbox",
             "My knees hurt today. I hardly slept. Put a bird bath next to the postbox.",
@@ -201,14 +200,6 @@ fn who_sells_something_is_known_by_it() {
 #[test]
 fn a_language_that_is_learnt_is_understood() {
     mean(
-        "oldtown",
-        "put a fountain near the Registry",
-        &[
-            "Pardon, I come from Lyon and my English is little: one fountain, he must stand near of the Registry.",
-            "please one fountain, she must stand near the Registry",
-        ],
-    );
-    mean(
         "campus",
         "put a bucket next to the clinic",
         &[
@@ -231,14 +222,6 @@ fn a_language_that_is_learnt_is_understood() {
 
 #[test]
 fn rows_wishes_and_streets_are_told_loosely() {
-    mean(
-        "campus",
-        "put birches every ten metres between the clinic and Maple House",
-        &[
-            "birches from the clinic to Maple House, one every ten metres",
-            "We'd like the walk to look nicer for visitors. Birches from the clinic to Maple House, one every ten metres.",
-        ],
-    );
     mean(
         "quarter",
         "put street lamps every twenty metres on both sides of Oak Street",

@@ -21,7 +21,7 @@ const EXISTENCE: &Phrases = &Phrases::of(&["are there", "is there", "do we have"
     "can i see", "does this place have", "does the campus have", "does the city have", "does the harbour have",
     "does the town have", "this town has", "this city has", "the campus has", "the city has", "the town has",
     "the harbour has", "this campus has", "this harbour has", "this place has", "we have got", "have we",
-    "there is", "in this scene", "in my city", "in our city", "do you count", "can you count", "do you find", "are around here", "around", "do we count", "there are in total", "there are altogether", "do you make it", "are about"]);
+    "there is", "in this scene", "in my city", "in our city", "do you count", "can you count", "do you find", "are around here", "around", "do we count", "there are in total", "there are altogether", "are there in all", "there are in all", "are there in total", "are there altogether", "in all", "do you make it", "are about"]);
 
 impl Reader<'_> {
     pub(super) fn count(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {

@@ -198,7 +198,9 @@ impl Reader<'_> {
         const AGAIN: &[&str] = &["one", "ones", "it", "that", "this", "them", "those"];
         let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
         let is_again = |at: usize| self.word(at).is_some_and(|word| AGAIN.contains(&word));
-        longest_phrase(&self.lexemes[from..end], WAITS).is_some()
+        // The thing may be read alone, behind what it is waited for by.
+        let begin = self.lexemes[..from].iter().rposition(is_mark).map_or(0, |mark| mark + 1);
+        (begin..end).any(|at| longest_phrase(&self.lexemes[at..end], WAITS).is_some())
             && wishes.iter().flatten().all(nowhere)
             && self.lexemes[end..].iter().any(|lexeme| !is_mark(lexeme))
             && !(end..self.lexemes.len()).any(is_again)

@@ -3,7 +3,7 @@
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Reference, Target};
-use super::super::lexer::Token;
+use super::super::lexer::{Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::parse::Reader;
 use super::wish::Wish;
@@ -55,7 +55,7 @@ impl Reader<'_> {
             }
             let mut from = cut;
             // "Rename the dog, he is Rex from now on".
-            if super::super::lexer::is_mark(&self.lexemes[cut - 1])
+            if is_mark(&self.lexemes[cut - 1])
                 && let Some(words) = longest_phrase(&self.lexemes[cut..end], IS_NOW)
             {
                 from += words;
@@ -64,7 +64,7 @@ impl Reader<'_> {
             let is_later = self.quoted(from.min(end - 1)).is_none()
                 && (from + 1..end).any(|at| self.quoted(at).is_some());
             if from >= end
-                || super::super::lexer::is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
+                || is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
                 || is_later
                 || longest(&self.lexemes[from..end], &super::words::WAYS).is_some()
             {
@@ -102,7 +102,7 @@ impl Reader<'_> {
             }
             stop = self.without_thanks(from, stop);
         }
-        while stop > from + 1 && super::super::lexer::is_mark(&self.lexemes[stop - 1]) {
+        while stop > from + 1 && is_mark(&self.lexemes[stop - 1]) {
             stop -= 1;
         }
         self.at = goes_on;
@@ -113,7 +113,7 @@ impl Reader<'_> {
 
     /// Whether a mark stands here and behind it what somebody says of a thing.
     fn begins_remark(&self, at: usize, end: usize) -> bool {
-        super::super::lexer::is_mark(&self.lexemes[at])
+        is_mark(&self.lexemes[at])
             && longest_phrase(
                 &self.lexemes[at + 1..end],
                 &[
@@ -151,14 +151,17 @@ impl Reader<'_> {
             "thanks",
             "thank you",
             "from now on",
+            "from today on",
+            "henceforth",
             "ok",
             "okay",
             "will you",
             "would you",
             "instead",
         ];
-        let is_last = |at: &usize| longest_phrase(&self.lexemes[*at..end], THANKS) == Some(end - at);
-        (from + 1..end).find(is_last).unwrap_or(end)
+        let last = self.lexemes[..end].iter().rposition(|lexeme| !is_mark(lexeme)).map_or(end, |at| at + 1);
+        let is_last = |at: &usize| longest_phrase(&self.lexemes[*at..last], THANKS) == Some(last - at);
+        (from + 1..last).find(is_last).unwrap_or(end)
     }
 
     /// What stands between quotation marks from here on.

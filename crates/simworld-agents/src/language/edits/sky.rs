@@ -2,7 +2,7 @@
 
 use simworld_core::environment::{Environment, Sun};
 
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{fits, longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
@@ -91,6 +91,16 @@ impl Reader<'_> {
             || longest_phrase(&self.lexemes[at..end], &["clear everything", "clear all", "clear it all"])
                 .is_some()
         {
+            return None;
+        }
+        // "We had a lovely day", "we drove for six hours": how it was, and for how long.
+        let was = |at: usize| match self.word(at) {
+            Some("had") => !matches!(self.word(at + 1), Some("better" | "in")),
+            Some("hours") => true,
+            _ => false,
+        };
+        let begin = self.lexemes[..at].iter().rposition(is_mark).map_or(0, |mark| mark + 1);
+        if (begin..end).any(was) {
             return None;
         }
         // "It is so hot" asks for no other weather.

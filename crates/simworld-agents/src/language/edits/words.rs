@@ -100,7 +100,7 @@ const VERB_ROWS: &[(&[&str], Verb)] = &[
         "were done with", "we are done with", "we dont want any", "part with", "strike out", "cross out", "rub out", "write off", "send packing", "wipe away", "clear up",
         "put an end to", "make short work of", "have done with", "call time on", "drop", "im over", "i am over", "we are over", "ive no use for", "weve no use for", "lets be rid of", "relieve me of", "relieve us of", "unload", "decommission", "retire", "im sick of looking at", "i am sick of looking at", "im tired of looking at", "i am tired of looking at", "im sick of seeing", "im tired of seeing", "i am tired of seeing", "were tired of looking at", "were sick of looking at",
         "i cant look at", "i can not look at", "i cannot look at", "i can no longer look at", "im fed up with", "i am fed up with", "were fed up with", "we are fed up with", "were sick of", "we are sick of", "were tired of", "we are tired of",
-        "turf out", "boot out", "bin off", "whisk away", "spirit away", "tidy away", "pack away", "kill off", "chase away", "shoo away", "expel", "eject"], Verb::Remove),
+        "turf out", "boot out", "bin off", "whisk away", "spirit away", "tidy away", "pack away", "kill off", "shoo away", "expel", "eject"], Verb::Remove),
     (&["replace", "substitute"], Verb::Replace),
     (&["rotate", "turn", "spin", "swivel", "orient", "orientate", "face", "aim", "point", "twist", "flip", "revolve", "pivot", "gyrate", "yaw"], Verb::Turn),
     (CLOSING, Verb::Close),
