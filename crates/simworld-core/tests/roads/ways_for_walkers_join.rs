@@ -4,8 +4,11 @@ use simworld_core::geometry::Point2;
 use simworld_core::id::WaypointId;
 use simworld_core::net::*;
 
+/// The points of a way, m, and whether its ends join sidewalks.
+type Way<'a> = (&'a [(f64, f64)], [bool; 2]);
+
 /// A crossroads, whose sidewalks lie 5 m beside the middle of its streets, with ways for walkers north-east of it.
-fn graph(ways: &[(&[(f64, f64)], [bool; 2])]) -> WaypointGraph {
+fn graph(ways: &[Way<'_>]) -> WaypointGraph {
     let plan = StreetPlan::crossroads(100.0);
     let mut network = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
     network.footpaths = ways

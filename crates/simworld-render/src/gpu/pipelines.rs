@@ -60,7 +60,7 @@ impl Matter {
     }
 }
 
-/// A layer of what is blended, the lower first; their numbers are those of LAYER in forward_models.wgsl.
+/// A layer of what is blended, the lower first; their numbers are those of LAYER in `forward_models.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub(crate) enum Layer {

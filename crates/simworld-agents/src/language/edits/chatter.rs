@@ -219,7 +219,7 @@ impl Reader<'_> {
             Some("it") => {
                 let is_sky = longest(behind, &SKIES).is_some() || super::sky::hour(behind).is_some();
                 let makes = at > 0 && matches!(self.word(at - 1), Some("make" | "let" | "have"));
-                !(makes && is_sky) && !matches!(next, "would" | "might" | "may")
+                !(makes && is_sky || matches!(next, "would" | "might" | "may"))
             }
             Some("there") => {
                 let is_said =

@@ -58,7 +58,9 @@ pub(super) fn paths(place: &Place, network: &RoadNetwork, buildings: &[Building]
         }
     }
     let mut laid = Laid::default();
-    kept.into_iter().for_each(|piece| laid.add(piece, &given_up));
+    for piece in kept {
+        laid.add(piece, &given_up);
+    }
     reached(laid.paths)
 }
 
@@ -130,7 +132,9 @@ fn reached(mut paths: Vec<Footpath>) -> Vec<Footpath> {
     };
     let mut met: BTreeMap<Option<[u64; 2]>, Vec<usize>> = BTreeMap::new();
     for (index, way) in paths.iter().enumerate() {
-        ends(way).into_iter().for_each(|end| met.entry(end).or_default().push(index));
+        for end in ends(way) {
+            met.entry(end).or_default().push(index);
+        }
     }
     let mut is_reached: Vec<bool> = paths.iter().map(|way| way.joins != [false; 2]).collect();
     let mut open: Vec<usize> = (0..paths.len()).filter(|index| is_reached[*index]).collect();

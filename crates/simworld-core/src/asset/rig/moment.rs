@@ -96,8 +96,8 @@ mod tests {
     use super::super::tests::{arm, is_near};
     use super::*;
 
-    const fn moment(number: u32) -> Option<ClipMoment> {
-        Some(ClipMoment { clip: 0, number })
+    const fn moment(number: u32) -> ClipMoment {
+        ClipMoment { clip: 0, number }
     }
 
     #[test]
@@ -122,7 +122,7 @@ mod tests {
     fn moments_are_told_apart_sixty_times_a_second() {
         let rig = Rig::new(arm()).unwrap();
         for number in [0, 1, 7, 30, 59, 60] {
-            let posed = rig.posed(RigPose::at(moment(number)));
+            let posed = rig.posed(RigPose::at(Some(moment(number))));
             let angle = std::f32::consts::FRAC_PI_2 * number as f32 / 60.0;
             assert!(is_near(posed.positions[2], hand(angle)), "{number}: {:?}", posed.positions[2]);
         }
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn one_pose_goes_over_into_another_from_joint_to_joint() {
         let rig = Rig::new(arm()).unwrap();
-        let (straight, bent) = (None, moment(60));
+        let (straight, bent) = (None, Some(moment(60)));
         for (seconds, share) in [(-1.0, 0.0), (0.0, 0.0), (0.05, 0.25), (0.1, 0.5), (0.2, 1.0), (9.0, 1.0)] {
             for (from, to, share) in [(straight, bent, share), (bent, straight, 1.0 - share)] {
                 let posed = rig.posed(RigPose::between(from, to, seconds));
