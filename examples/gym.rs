@@ -14,6 +14,7 @@ use std::time::Instant;
 use clap::Parser;
 use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
+use indicatif::{ProgressBar, ProgressStyle};
 use simworld_agents::gym::{EnvExt, VectorConfig, VectorEnv};
 use simworld_core::seam::EnvError;
 use simworld_core::seed::Seed;
@@ -30,8 +31,8 @@ struct Arguments {
     #[arg(long, default_value_t = 2)]
     seeds: u64,
     /// Steps of all environments together, for each seed.
-    #[arg(long, default_value_t = 12_000)]
-    steps: usize,
+    #[arg(long, default_value = "12000")]
+    steps: NonZeroUsize,
     /// Environments that are stepped together.
     #[arg(long, default_value = "8")]
     environments: NonZeroUsize,
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
 
 #[expect(clippy::disallowed_methods, reason = "says how long learning took")]
 fn job(arguments: &Arguments) -> Outcome<()> {
+    simworld_examples::folder::make_folder(&arguments.out)?;
     let field = Arc::new(Field::new(Seed(arguments.city))?);
     println!(
         "a block of 40 m by 40 m: {} of 256 cells have something in them, {} to begin in",
@@ -73,8 +75,12 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     for seed in 0..arguments.seeds {
         let mut envs = environments(arguments, &field)?;
         let start = Instant::now();
-        let lesson = learn(&mut envs, arguments.steps, POINTS, Seed(seed))?;
+        let bar = ProgressBar::new(arguments.steps.get() as u64).with_message(format!("seed {seed}"));
+        bar.set_style(ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} steps {elapsed}")?);
+        let tell = |done| bar.set_position(done as u64);
+        let lesson = learn(&mut envs, arguments.steps.get(), POINTS, Seed(seed), tell)?;
         let time = start.elapsed();
+        bar.finish_and_clear();
         for (name, policy, time) in [
             ("chance", Policy::Random, String::new()),
             ("learnt", Policy::Learnt(&lesson.table), format!("{:.1} s", time.as_secs_f64())),
@@ -95,7 +101,6 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         drawing = field.drawing(|cell| lesson.table.best(cell));
     }
     println!("{table}\nthe last table, north up:\n{drawing}");
-    simworld_examples::folder::make_folder(&arguments.out)?;
     let path = arguments.out.join("reward.svg");
     std::fs::write(&path, curve_chart(&runs))?;
     println!("how the reward grows: {}", path.display());

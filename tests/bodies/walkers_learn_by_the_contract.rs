@@ -83,7 +83,7 @@ fn threads_and_processes_do_not_matter() {
 #[test]
 fn a_table_learns_what_chance_does_not_find() {
     let mut envs = many(&field(), 8, 2, 0);
-    let lesson = learn(&mut envs, 5000, 10, Seed(1)).unwrap();
+    let lesson = learn(&mut envs, 5000, 10, Seed(1), |_| {}).unwrap();
     let chance = judge(&mut envs, Policy::Random, 40, Seed(1)).unwrap();
     let learnt = judge(&mut envs, Policy::Learnt(&lesson.table), 40, Seed(1)).unwrap();
     assert!(learnt.found > chance.found + 0.4, "{learnt:?} against {chance:?}");

@@ -78,11 +78,17 @@ pub struct Judged {
     pub length: f64,
 }
 
-/// Learns for so many steps of all environments together, with so many points of a curve.
+/// Learns for so many steps of all environments together, with so many points of a curve; tells of each round how many steps are done.
 ///
 /// # Errors
 /// An environment fails.
-pub fn learn(envs: &mut Many, steps: usize, points: usize, seed: Seed) -> Result<Lesson, VectorError> {
+pub fn learn(
+    envs: &mut Many,
+    steps: usize,
+    points: usize,
+    seed: Seed,
+    mut tell: impl FnMut(usize),
+) -> Result<Lesson, VectorError> {
     let mut rng = seed.stream("wayfinding/learner").rng();
     let mut table = Table(vec![[0.0; HEADINGS]; SIDE * SIDE]);
     let mut cells = first_cells(envs, seed)?;
@@ -116,6 +122,7 @@ pub fn learn(envs: &mut Many, steps: usize, points: usize, seed: Seed) -> Result
         }
         let before = done / every;
         done += envs.len();
+        tell(done);
         if done / every > before {
             let judged = tally.take();
             curve.push(Point { steps: done, mean: judged.mean, found: judged.found });

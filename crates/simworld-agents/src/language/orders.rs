@@ -114,19 +114,6 @@ impl Parser<'_> {
         const BEGINNINGS: &Phrases =
             &Phrases::of(&["to", "at", "the", "a", "an", "him", "her", "it", "towards"]);
         let refused = self.not_understood(UNDERSTOOD);
-        let has_objects = |verb: &Verb| {
-            !matches!(
-                verb,
-                Verb::StandUp
-                    | Verb::Crouch
-                    | Verb::Stop
-                    | Verb::Wait
-                    | Verb::Count
-                    | Verb::Faster
-                    | Verb::Slower
-                    | Verb::Alight
-            )
-        };
         let here = self.at;
         if let Some(clauses) = self.counted_deeds()? {
             return Ok(clauses);
@@ -153,7 +140,7 @@ impl Parser<'_> {
         .is_some();
         let leads = longest_phrase(self.rest(), &["to", "off to", "over to"]).is_some();
         let last = if moves { Some(Verb::Go) } else { self.verb.or(leads.then_some(Verb::Go)) };
-        let Some(verb) = last.filter(has_objects) else { return Err(refused) };
+        let Some(verb) = last.filter(|verb| has_objects(*verb)) else { return Err(refused) };
         let is_phrase = moves || longest_phrase(self.rest(), BEGINNINGS).is_some();
         let start = self.at;
         if verb == Verb::Sit && longest_phrase(self.rest(), &["on", "in", "at"]).is_none() {
@@ -493,4 +480,19 @@ impl Parser<'_> {
 
 fn is_company(lexeme: &Lexeme) -> bool {
     matches!(&lexeme.token, Token::Word(word) if word == "company")
+}
+
+/// Whether a verb is about something.
+const fn has_objects(verb: Verb) -> bool {
+    !matches!(
+        verb,
+        Verb::StandUp
+            | Verb::Crouch
+            | Verb::Stop
+            | Verb::Wait
+            | Verb::Count
+            | Verb::Faster
+            | Verb::Slower
+            | Verb::Alight
+    )
 }

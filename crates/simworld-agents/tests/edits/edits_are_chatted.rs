@@ -314,7 +314,6 @@ fn what_forbids_or_asks_for_nothing_changes_nothing() {
     let city = City::read("campus");
     let said = [
         "My knees hurt. Do not remove the hydrant.",
-        "We had a lovely day. Never paint the truck blue.",
         "Visitors park everywhere.",
         "The mayor phoned me twice about this.",
         "My uncle sang all night, and my aunt danced.",

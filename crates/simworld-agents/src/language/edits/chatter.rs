@@ -34,6 +34,13 @@ const CERTAIN: &[&str] =
 /// A determiner stands no farther before its noun.
 const FARTHEST: usize = 4;
 
+/// Whether a word may begin a reason, or what follows from one, where no mark stands before it.
+pub(super) fn begins_reason(lexeme: &Lexeme) -> bool {
+    let firsts = BECAUSE.iter().filter_map(|phrase| phrase.split(' ').next());
+    let word = super::super::lexer::word_of(lexeme);
+    word == "so" || firsts.into_iter().any(|first| first == word)
+}
+
 /// A sentence without what in it asks for nothing.
 pub(super) struct Way {
     pub(super) lexemes: Vec<Lexeme>,

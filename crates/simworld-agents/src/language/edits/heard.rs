@@ -2,7 +2,7 @@
 
 use simworld_core::scene::Scene;
 
-use super::super::lexer::Lexeme;
+use super::super::lexer::{Lexeme, is_mark};
 use super::super::names::Names;
 use super::super::parser::shortened;
 use super::super::streets::StreetNames;
@@ -13,9 +13,9 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, doubted, dress_new, gone_by_name, gone_once, made_once, narrowed, nth,
-    others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows, slips, spared, spoken,
-    talk, view_of, which, whole, wording,
+    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, made_once,
+    narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows, slips,
+    spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -33,7 +33,10 @@ pub(crate) fn read(
     let ear = Ear { words, scene, stock, focus };
     let heard = hearing::hear(words, None);
     let read = ear.read(heard.clone());
-    if ear.is_granted(&read) { read } else { ear.without_chatter(heard, read) }
+    // What is said in one go has nothing that could be left out, and whether it is granted need not be worked out twice.
+    let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
+    let in_one_go = !heard[..last].iter().any(|lexeme| is_mark(lexeme) || chatter::begins_reason(lexeme));
+    if in_one_go || ear.is_granted(&read) { read } else { ear.without_chatter(heard, read) }
 }
 
 /// A sentence, and the scene in which it is heard.
