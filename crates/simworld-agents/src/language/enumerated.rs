@@ -11,10 +11,12 @@ use super::verbs::longest_verb;
 pub(super) fn without_announced_photo(clauses: &mut Vec<Clause>, words: &str) {
     let announced =
         matches!(clauses[..], [Clause::Photo { of: None, times: 1 }, Clause::Photo { of: Some(_), .. }, ..]);
-    let told_apart = hearing::hear(words, None)
-        .iter()
-        .any(|lexeme| ["and", "then", "also", "again", "another", "after", "too"].contains(&word_of(lexeme)));
-    if announced && !told_apart {
+    let told_apart = || {
+        hearing::hear(words, None).iter().any(|lexeme| {
+            ["and", "then", "also", "again", "another", "after", "too"].contains(&word_of(lexeme))
+        })
+    };
+    if announced && !told_apart() {
         clauses.remove(0);
     }
 }

@@ -22,8 +22,8 @@ pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
     let words = INDEX.longest(lexemes).map(|((), words)| words)?;
     // "Third, go to ...", and "the third person".
     let counts = ["third", "fourth"].contains(&word_of(&lexemes[0]));
-    let leads = lexemes.get(words).is_some_and(is_mark) || longest_verb(&lexemes[words..]).is_some();
-    (!counts || leads).then_some(words)
+    let leads = || lexemes.get(words).is_some_and(is_mark) || longest_verb(&lexemes[words..]).is_some();
+    (!counts || leads()).then_some(words)
 }
 
 /// Ways to join two orders.
