@@ -23,6 +23,7 @@ mod layout;
 mod lookahead;
 mod manager;
 mod mobil;
+mod onward;
 mod otherwise;
 mod part;
 mod patience;

@@ -34,7 +34,10 @@ impl Places {
             let is_meant = |lane: &Track| {
                 tracks.may_use(*lane, kind) && !others.iter().any(|other| tracks.may_use(*lane, *other))
             };
-            for lane in (0..tracks.lanes as Track).filter(is_meant) {
+            // Not where they could only leave the map, unless it is all like that.
+            let leads_on = |lane: &Track| tracks.leads_on[*lane as usize];
+            let any = (0..tracks.lanes as Track).filter(is_meant).any(|lane| leads_on(&lane));
+            for lane in (0..tracks.lanes as Track).filter(is_meant).filter(|lane| !any || leads_on(lane)) {
                 let count = ((tracks.length[lane as usize] - 1.0) / slot).floor().max(0.0) as usize;
                 places.extend((1..=count).map(|place| (lane, place as f64 * slot)));
             }

@@ -15,7 +15,7 @@ use super::layout::Layout;
 use super::manager::NONE;
 use super::ragged::Ragged;
 use super::trailing::SPARE;
-use super::{VehicleKind, kerb, lanes};
+use super::{VehicleKind, kerb, lanes, onward};
 use crate::{Leg, Router, TrafficConfig};
 
 /// A lane or a connection: lanes come first.
@@ -94,6 +94,8 @@ pub(crate) struct Tracks {
     pub(crate) beside: Vec<[Track; 2]>,
     /// What each lane is for.
     pub(super) kinds: Vec<LaneKind>,
+    /// Whether one can drive on from each lane without end.
+    pub(super) leads_on: Vec<bool>,
     /// Whether each lane is the last of its leg before the kerb or the cycle lane.
     pub(crate) outermost: Vec<bool>,
     /// How far to the left of each lane the parking strip at its kerb lies, m; 0 where there is none.
@@ -136,6 +138,7 @@ impl Tracks {
             kerb: kerb::places(&network, &beside),
             beside,
             kinds: network.lanes.iter().map(|lane| lane.kind).collect(),
+            leads_on: onward::lead_on(&network),
             outermost: lanes::outermost(&network),
             exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
             router: Router::new(&network),
@@ -210,7 +213,8 @@ impl Tracks {
             && self.network.lanes[lane as usize].outgoing.iter().all(turns_round)
     }
 
-    /// The ways on from a lane, with their weights by turn for a vehicle of such a kind and length, into `weights`.
+    /// The ways on from a lane, with their weights by turn for a vehicle of such a kind and length, into `weights`. Where one
+    /// leads to streets on which one can drive on, those that end somewhere have no weight.
     pub(crate) fn weighted_ways(
         &self,
         lane: Track,
@@ -219,10 +223,13 @@ impl Tracks {
         weights: &mut Vec<f64>,
     ) -> &[ConnectionId] {
         let ways = &self.network.lanes[lane as usize].outgoing;
+        let leads_on = |way: &ConnectionId| self.leads_on[self.lane_after(way.index()) as usize];
+        let any = ways.iter().any(leads_on);
         weights.clear();
         weights.extend(ways.iter().map(|way| {
             let after = self.lane_after(way.index());
-            let is_open = self.may_use(after, kind) && !self.is_trap(after, length);
+            let is_open =
+                self.may_use(after, kind) && !self.is_trap(after, length) && (!any || leads_on(way));
             if is_open { self.weight(way.index(), turns) } else { 0.0 }
         }));
         ways
