@@ -33,7 +33,7 @@ pub(crate) const PLACES: [&str; 16] = [
     "waterside",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 34] = [
+const SETS: [&str; 35] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -68,6 +68,7 @@ const SETS: [&str; 34] = [
     "thirtysecond",
     "thirtythird",
     "thirtyfourth",
+    "thirtyfifth",
 ];
 
 /// One thing that is said, and what it means.
