@@ -75,7 +75,8 @@ impl Ear<'_> {
         let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
         let several = reader.with_several_nearest(&finder);
         let reader = Reader { lexemes: several.as_deref().unwrap_or(reader.lexemes), ..reader };
-        let mut wishes = wishes_of(reader, scene, stock, focus)?;
+        let (mut wishes, held) = wishes_of(reader, scene, stock, focus)?;
+        let said_first = held.as_ref().and_then(|_| wishes.first().cloned());
         if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
             return Err(reader.not_understood("say of what every second one is meant").into());
         }
@@ -86,14 +87,19 @@ impl Ear<'_> {
         gone_once(&mut wishes);
         made_once(&mut wishes);
         paint_at_once(&mut wishes, &finder);
-        Ok(Reading { words: words.to_owned(), wishes })
+        // What was worked out stands for the first wish only while that is as it was.
+        let held = held.filter(|_| wishes.first() == said_first.as_ref());
+        Ok(Reading { words: words.to_owned(), wishes, held, any_of: focus.any_of })
     }
 
     /// Whether a sentence is understood, somebody has what it asks for, and what it is about first is there; or whether what is wrong with it
     /// is something else.
     fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
         match read {
-            Ok(reading) => reading.lacking(self.stock).is_empty() && !self.is_missing(reading),
+            // What was found to be granted while it was read is not worked out anew.
+            Ok(reading) => {
+                reading.held.is_some() || reading.lacking(self.stock).is_empty() && !self.is_missing(reading)
+            }
             Err(refused) => !matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. }),
         }
     }

@@ -99,6 +99,7 @@ pub(super) mod words;
 
 use std::sync::Arc;
 
+use attempts::Held;
 pub(crate) use heard::read;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
@@ -138,6 +139,10 @@ pub(crate) struct Reading {
     words: String,
     /// Each wish in all its readings.
     wishes: Vec<Vec<Wish>>,
+    /// What was found out of the wishes while they were read, if all of them can be granted.
+    held: Option<Held>,
+    /// Whether of things that are named with an "or" one was to be taken.
+    any_of: bool,
 }
 
 impl Reading {

@@ -32,7 +32,8 @@ impl Settling {
 
 impl Reading {
     /// The edits that a wish means in the scene as it is: those of its first reading whose things are there. Which is meant of
-    /// several is asked first, so that what is clear in another reading is so under every policy; then the policy takes one.
+    /// several is asked first, so that what is clear in another reading is so under every policy; then the policy takes one. The first
+    /// wish is asked for in the scene in which the sentence was read, so that what it came to then is what it comes to.
     pub(crate) fn resolve(
         &self,
         index: usize,
@@ -41,6 +42,12 @@ impl Reading {
         focus: &Focus,
         policy: AmbiguityPolicy,
     ) -> Result<(Vec<Edit>, Vec<Taken>), EditError> {
+        if index == 0
+            && focus.any_of == self.any_of
+            && let Some(edits) = self.held.as_ref().and_then(|held| held.edits.clone())
+        {
+            return Ok((edits, Vec::new()));
+        }
         let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
         let asked = self.resolve_by(index, &finder);
         if policy == AmbiguityPolicy::Ask || !matches!(asked, Err(EditError::Ambiguous { .. })) {
