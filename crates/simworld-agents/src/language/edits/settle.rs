@@ -155,3 +155,60 @@ impl Finder<'_> {
         self.scene.entity(id).map_or(f64::INFINITY, |entity| self.view.distance(&entity))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::asset::Catalogue;
+    use simworld_core::geometry::{Point2, Point3, pose_facing};
+    use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+
+    use super::super::read;
+    use super::*;
+
+    fn two_benches() -> World {
+        let mut world = World::new();
+        for x in [5.0, 9.0] {
+            let pose = pose_facing(Point3::new(x, 0.0, 0.0), 0.0);
+            let bench = EntityDesc::new(EntityKind::Bench, pose, Shape::cuboid(0.6, 1.8, 0.85));
+            world.spawn(bench).unwrap();
+        }
+        world
+    }
+
+    fn focus() -> Focus {
+        Focus {
+            from: Point2::origin(),
+            who: None,
+            it: None,
+            beside: None,
+            made: Vec::new(),
+            place: None,
+            roads: Vec::new(),
+            streets: std::sync::Arc::default(),
+            any_of: false,
+        }
+    }
+
+    #[test]
+    fn what_was_found_while_a_sentence_was_read_is_what_it_comes_to() {
+        let (world, stock, focus) = (two_benches(), Stock::new(Catalogue::standard()), focus());
+        let said = |words: &str| read(words, &world, &stock, &focus).unwrap();
+        let comes_to = |reading: &Reading| {
+            reading.resolve(0, &world, &stock, &focus, AmbiguityPolicy::Nearest).unwrap()
+        };
+        for words in ["paint the nearest bench red, please", "remove the nearest bench, and make it night"] {
+            let reading = said(words);
+            assert!(reading.held.as_ref().is_some_and(|held| held.edits.is_some()), "{words}");
+            let anew = Reading { held: None, ..reading.clone() };
+            assert_eq!(comes_to(&reading), comes_to(&anew), "{words}");
+        }
+        // Where several fit it is there, and which it is waits for the policy.
+        let open = said("paint the bench red, please");
+        assert!(open.held.as_ref().is_some_and(|held| held.edits.is_none()));
+        assert_eq!(comes_to(&open).1.len(), 1);
+        // In a scene that was read otherwise it is worked out anew.
+        let other = Focus { any_of: true, ..focus.clone() };
+        let reading = said("paint the nearest bench red, please");
+        assert!(reading.resolve(0, &World::new(), &stock, &other, AmbiguityPolicy::Ask).is_err());
+    }
+}
