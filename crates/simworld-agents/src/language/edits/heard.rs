@@ -13,9 +13,9 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, made_once,
-    narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows, slips,
-    spared, spoken, talk, view_of, which, whole, wording,
+    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
+    made_once, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows,
+    slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -153,6 +153,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    hesitations::in_plain_words(words, lexemes);
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
     respelt::in_plain_spelling(words, lexemes);

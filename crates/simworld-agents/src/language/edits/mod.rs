@@ -32,6 +32,7 @@ mod given;
 mod goodbye;
 mod ground;
 mod heard;
+mod hesitations;
 mod idle;
 mod likened;
 mod loose;

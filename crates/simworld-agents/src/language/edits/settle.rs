@@ -193,9 +193,8 @@ mod tests {
     fn what_was_found_while_a_sentence_was_read_is_what_it_comes_to() {
         let (world, stock, focus) = (two_benches(), Stock::new(Catalogue::standard()), focus());
         let said = |words: &str| read(words, &world, &stock, &focus).unwrap();
-        let comes_to = |reading: &Reading| {
-            reading.resolve(0, &world, &stock, &focus, AmbiguityPolicy::Nearest).unwrap()
-        };
+        let comes_to =
+            |reading: &Reading| reading.resolve(0, &world, &stock, &focus, AmbiguityPolicy::Nearest).unwrap();
         for words in ["paint the nearest bench red, please", "remove the nearest bench, and make it night"] {
             let reading = said(words);
             assert!(reading.held.as_ref().is_some_and(|held| held.edits.is_some()), "{words}");

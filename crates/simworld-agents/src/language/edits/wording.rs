@@ -28,7 +28,7 @@ const THINKS: &Phrases = &Phrases::of(&["let me think", "let me see", "let me th
     "how do i say this", "how should i say", "give me a second", "one moment", "just a second", "wait a second", "where was i", "what was it", "what was it again", "whats it called again", "what do they call it", "what shall i say", "shall we say", "lets say", "say", "you know", "hmm", "hm", "er", "erm", "um", "uh", "umm", "oh", "well", "for example", "for instance", "i guess", "i think", "maybe", "perhaps"]);
 /// Words at which nothing ends.
 #[rustfmt::skip]
-const UNFINISHED: &Phrases = &Phrases::of(&["be", "need", "needs", "want", "wants", "add", "put", "place", "like", "have", "has", "a", "an", "the", "with", "next to", "beside", "behind", "near", "in front of", "of", "get", "build", "plant", "place", "park", "set", "remove", "delete", "paint", "move", "turn", "make", "give me", "see", "to", "between", "opposite", "by", "some", "from", "for", "my", "our"]);
+const UNFINISHED: &Phrases = &Phrases::of(&["be", "need", "needs", "want", "wants", "add", "put", "place", "like", "have", "has", "a", "an", "the", "with", "next to", "beside", "behind", "near", "in front of", "of", "get", "build", "plant", "place", "park", "set", "remove", "delete", "paint", "move", "turn", "make", "give me", "see", "to", "between", "opposite", "by", "some", "from", "for", "my", "our", "and", "at", "into", "onto", "towards", "another", "across from", "left of", "right of"]);
 
 /// Puts them plainly.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
@@ -257,6 +257,8 @@ mod tests {
     #[test]
     fn what_is_said_while_thinking_goes_with_its_commas() {
         assert_eq!(plain("by the office I need, let me think, a bin"), "by the office i need a bin");
+        assert_eq!(plain("put it at, let's see, the fountain"), "put it at the fountain");
+        assert_eq!(plain("a bin between carol and, let me think, dmitri"), "a bin between carol and dmitri");
         assert_eq!(plain("add a bench, let me think, and a bin"), "add a bench , let me think , and a bin");
     }
 
