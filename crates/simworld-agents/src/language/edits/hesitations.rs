@@ -113,10 +113,11 @@ fn is_joint(lexemes: &[Lexeme], at: usize) -> bool {
 fn without_meant(lexemes: &mut Vec<Lexeme>, mark: usize) {
     let said = lexemes.get(mark + 1..).and_then(|rest| longest_phrase(rest, MEANT));
     let Some(end) = said.map(|said| mark + 1 + said).filter(|_| is_comma(lexemes, mark)) else { return };
-    match lexemes.get(end) {
-        Some(next) if next.token == Token::Comma => drop(lexemes.drain(mark..=end)),
-        Some(next) if !is_mark(next) => {}
-        _ => drop(lexemes.drain(mark..end)),
+    let (is_between, is_last) = (is_comma(lexemes, end), lexemes.get(end).is_none_or(is_mark));
+    if is_between {
+        lexemes.drain(mark..=end);
+    } else if is_last {
+        lexemes.drain(mark..end);
     }
 }
 

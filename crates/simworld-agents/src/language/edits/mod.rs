@@ -92,6 +92,7 @@ mod topics;
 mod turn;
 mod turns;
 mod unasked;
+mod weather_told;
 mod which;
 mod whole;
 mod wish;
