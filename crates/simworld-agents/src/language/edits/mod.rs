@@ -77,6 +77,7 @@ mod shares;
 mod sizes;
 pub(super) mod sky;
 mod slips;
+mod sounds_like;
 mod spared;
 mod spoken;
 mod spoken_first;
