@@ -14,8 +14,8 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    made_once, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows,
-    slips, spared, spoken, talk, view_of, which, whole, wording,
+    lastly, made_once, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt,
+    retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -33,10 +33,14 @@ pub(crate) fn read(
     let ear = Ear { words, scene, stock, focus };
     let heard = hearing::hear(words, None);
     let read = ear.read(heard.clone());
-    // What is said in one go has nothing that could be left out, and whether it is granted need not be worked out twice.
+    // What is said in one go has nothing that could be left out.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
     let in_one_go = !heard[..last].iter().any(|lexeme| is_mark(lexeme) || chatter::begins_reason(lexeme));
-    if in_one_go || ear.is_granted(&read) { read } else { ear.without_chatter(heard, read) }
+    if ear.is_granted(&read) {
+        return read;
+    }
+    let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
+    if ear.is_granted(&read) { read } else { ear.in_other_words(&heard, read) }
 }
 
 /// A sentence, and the scene in which it is heard.
@@ -143,6 +147,26 @@ impl Ear<'_> {
             Some(answer) if matches!(read, Err(EditError::NotUnderstood { .. })) => answer,
             _ => read,
         }
+    }
+}
+
+impl Ear<'_> {
+    /// The sentence as it may have been meant, if that is granted; or else what is wrong with it.
+    fn in_other_words(
+        &self,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let Self { words, scene, stock, focus } = *self;
+        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        for way in lastly::ways(words, heard, &names, stock, focus) {
+            let anew = self.read(way.clone());
+            let anew = if self.is_granted(&anew) { anew } else { self.without_chatter(way, anew) };
+            if self.is_granted(&anew) {
+                return anew;
+            }
+        }
+        read
     }
 }
 

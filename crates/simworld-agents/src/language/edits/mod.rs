@@ -34,6 +34,7 @@ mod ground;
 mod heard;
 mod hesitations;
 mod idle;
+mod lastly;
 mod likened;
 mod loose;
 mod make;
@@ -128,12 +129,27 @@ pub(crate) struct Focus {
     pub(crate) made: Vec<EntityId>,
     /// What "there" stands for.
     pub(crate) place: Option<Point2>,
+    /// What was moved or taken away lately, by what it is called and what it is, in small letters, and where it had stood; the last one last.
+    pub(crate) left: Vec<(String, Point2)>,
     /// The streets that were spoken of last.
     pub(crate) roads: Vec<RoadId>,
     /// What streets are called.
     pub(crate) streets: Arc<StreetNames>,
     /// Whether of things that are named with an "or" one will be taken.
     pub(crate) any_of: bool,
+}
+
+impl Focus {
+    /// So many places are remembered.
+    const LEFT: usize = 16;
+
+    /// Remembers where something stood that is moved or taken away.
+    pub(crate) fn leaves(&mut self, called: &str, at: Point2) {
+        if self.left.len() >= Self::LEFT {
+            self.left.remove(0);
+        }
+        self.left.push((called.to_lowercase(), at));
+    }
 }
 
 /// A sentence that was read.

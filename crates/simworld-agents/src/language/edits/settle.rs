@@ -183,6 +183,7 @@ mod tests {
             beside: None,
             made: Vec::new(),
             place: None,
+            left: Vec::new(),
             roads: Vec::new(),
             streets: std::sync::Arc::default(),
             any_of: false,
