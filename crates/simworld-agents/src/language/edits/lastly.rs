@@ -195,7 +195,7 @@ fn whose(words: &str, lexemes: &[Lexeme], at: usize) -> Option<(Vec<Lexeme>, usi
     let last = (from..lexemes.len().min(from + LONGEST)).find(|last| {
         let lexeme = &lexemes[*last];
         let written = words.get(lexeme.start..lexeme.end).unwrap_or_default();
-        word_of(lexeme).ends_with('s') && ["'s", "’s", "s'", "s’"].iter().any(|end| written.ends_with(end))
+        word_of(lexeme).ends_with('s') && ["'s", "’s", "s'", "s’"].iter().any(|end| written.ends_with(*end))
     })?;
     let owner = word_of(&lexemes[last]).strip_suffix('s').filter(|owner| !owner.is_empty())?;
     let mut noun = lexemes[from..last].to_vec();
