@@ -11,12 +11,13 @@ use super::breaks::hides_sound;
 use super::forms::word;
 use super::repairs::{TAKEN_BACK, Value, is_whole_side, value};
 use super::replaced::{class_at, is_article};
+use super::wording::is_between;
 use super::words::{VERBS, WAYS};
 
 /// Before a thing that is known.
 const CERTAIN: &Phrases = &Phrases::of(&["the", "that", "this", "my", "our"]);
 /// Behind these nothing ends, so that nothing whole stands there which could be taken back.
-const JOINTS: &[&str] = &["and", "or", "between", "with", "of", "at", "near", "behind", "beside"];
+const JOINTS: &[&str] = &["between", "with", "of", "at", "near", "behind", "beside"];
 /// Behind what is meant.
 const MEANT: &Phrases = &Phrases::of(&["i mean", "i meant", "i should say", "rather"]);
 /// A thing has no more words than that from its article on.
@@ -54,7 +55,7 @@ fn without_taken_back(lexemes: &mut Vec<Lexeme>) {
         let rest = behind.and_then(|mark| lexemes.get(mark + 1..)).unwrap_or_default();
         let is_thing = !rest.is_empty() && longest(rest, &VERBS).is_none() && longest(rest, &WAYS).is_none();
         if let Some(mark) = behind.filter(|_| is_thing) {
-            if JOINTS.contains(&word(lexemes, at - 1)) {
+            if is_between(lexemes, at) || JOINTS.contains(&word(lexemes, at - 1)) {
                 lexemes.drain(at..=mark);
             } else if is_article(&lexemes[at - 1..at]) && is_article(rest) {
                 lexemes.drain(at - 1..=mark);
@@ -157,6 +158,7 @@ mod tests {
     fn what_is_listed_or_of_two_kinds_stays() {
         for (said, meant) in [
             ("paint the benches red, blue, er, green", "paint the benches red , blue green"),
+            ("we read of towns and, well, they have trees", "we read of towns and , well , they have trees"),
             ("remove the van, um, the oak", "remove the van the oak"),
             (
                 "remove the red bench, um, the blue bench and the oak",
