@@ -219,8 +219,10 @@ impl Applier<'_> {
         let mut told = Vec::new();
         for thing in things {
             let at = self.entity(*thing)?.planar();
+            let called = self.kind_and_label(*thing);
             told.push(format!("to remove {}", self.label(*thing)));
             self.change(&Command::Remove { id: *thing })?;
+            self.focus.leaves(&called, at);
             self.focus.place = Some(at);
             self.focus.it = self.focus.it.filter(|it| it != thing);
         }
@@ -248,7 +250,9 @@ impl Applier<'_> {
             let on_it = load.seen_from(&desc.pose);
             let pose = self.place(subject, (rank as u32, count), stands, (&lifted, &on_it))?;
             let what = format!("to move {}", self.label(*thing));
+            let called = self.kind_and_label(*thing);
             self.change(&Command::Move { id: *thing, pose })?;
+            self.focus.leaves(&called, simworld_core::geometry::planar(&desc.pose));
             self.carry(load, (&desc.pose, &pose), &lifted, &what)?;
             told.push(what);
             left.retain(|id| id != thing);

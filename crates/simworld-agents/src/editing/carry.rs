@@ -177,6 +177,12 @@ impl Applier<'_> {
         }
     }
 
+    /// What a thing is called, and what it is: "Bruno dog".
+    pub(super) fn kind_and_label(&self, thing: EntityId) -> String {
+        let kind = self.scene.world().entity(thing).map(|entity| entity.kind.as_str().replace('_', " "));
+        format!("{} {}", self.label(thing), kind.unwrap_or_default())
+    }
+
     /// What a thing is called.
     pub(super) fn label(&self, thing: EntityId) -> String {
         let world = self.scene.world();

@@ -85,6 +85,7 @@ impl SceneEditor {
                 made: Vec::new(),
                 it: None,
                 place: None,
+                left: Vec::new(),
                 roads: Vec::new(),
                 streets: Arc::default(),
                 any_of: false,

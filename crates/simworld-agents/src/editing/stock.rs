@@ -35,7 +35,7 @@ pub(crate) struct Stock {
 }
 
 impl Stock {
-    pub(super) fn new(catalogue: Catalogue) -> Self {
+    pub(crate) fn new(catalogue: Catalogue) -> Self {
         let index = AssetIndex::of(&catalogue);
         let (mut words, mut joined) = (BTreeSet::new(), BTreeMap::new());
         for (_, asset) in catalogue.iter() {

@@ -6,14 +6,14 @@ use simworld_agents::editing::{Difference, Edit, SceneEditor};
 use simworld_core::seed::Seed;
 
 /// Said so in a copy of the city: the edits, or the answer why there are none.
-fn edits_of(city: &City, words: &str) -> Result<Vec<Edit>, String> {
+pub(crate) fn edits_of(city: &City, words: &str) -> Result<Vec<Edit>, String> {
     let mut world = city.world.clone();
     let mut editor = SceneEditor::new(Seed(7)).looking_as(city.me, &world);
     editor.say(words, &mut world).map(|done| done.edits).map_err(|error| error.to_string())
 }
 
 /// All that is said means what the plain order does.
-fn mean(city: &str, plain: &str, said: &[&str]) {
+pub(crate) fn mean(city: &str, plain: &str, said: &[&str]) {
     let city = City::read(city);
     let meant = edits_of(&city, plain).unwrap_or_else(|error| panic!("{plain}: {error}"));
     let astray: Vec<String> = said

@@ -14,7 +14,7 @@ use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
 use super::words::{ABOUT_IT, WAYS, Way};
 use super::{Focus, view_of};
-use crate::editing::{EditError, Stock};
+use crate::editing::{Edit, EditError, Stock};
 
 /// Places with which a sentence begins that puts something there.
 #[rustfmt::skip]
@@ -27,14 +27,21 @@ type Wishes = Vec<Vec<Wish>>;
 /// A sentence in other words, with what was read of it.
 type Retold = (Vec<Lexeme>, Memo);
 
+/// That somebody has what a sentence asks for, and that what it is about first is there.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Held {
+    /// What its first wish comes to, if that is clear.
+    pub(super) edits: Option<Vec<Edit>>,
+}
+
 /// The wishes of a sentence: as it stands or, if that is not understood, or asks for what nobody has or what is not there,
-/// in some other way.
+/// in some other way. What was found out of those that stand as they were said is kept, so that they are not worked out anew.
 pub(super) fn wishes_of(
     reader: Reader<'_>,
     scene: &dyn Scene,
     stock: &Stock,
     focus: &Focus,
-) -> Result<Wishes, PlanError> {
+) -> Result<(Wishes, Option<Held>), PlanError> {
     let speaks_of_self = reader
         .lexemes
         .iter()
@@ -58,7 +65,7 @@ struct Attempts<'a> {
 }
 
 impl Attempts<'_> {
-    fn wishes(&self) -> Result<Wishes, PlanError> {
+    fn wishes(&self) -> Result<(Wishes, Option<Held>), PlanError> {
         if self.asks_how_to() {
             return Err(self.reader.not_understood(UNDERSTOOD));
         }
@@ -66,9 +73,16 @@ impl Attempts<'_> {
             return Err(nobody);
         }
         let plain = plainly(&self.reader);
-        if plain.as_ref().is_ok_and(|wishes| self.holds(wishes)) {
-            return plain;
+        if let Ok(wishes) = &plain
+            && let Some(held) = self.held(wishes)
+        {
+            return plain.map(|wishes| (wishes, Some(held)));
         }
+        self.boldly(plain).map(|wishes| (wishes, None))
+    }
+
+    /// In the other ways, where it is not understood as it stands.
+    fn boldly(&self, plain: Result<Wishes, PlanError>) -> Result<Wishes, PlanError> {
         let in_parts = self.in_parts(&self.reader, Telling::Words);
         if let Some(wishes) = in_parts.as_ref().filter(|wishes| self.is_there(wishes)) {
             return Ok(wishes.clone());
@@ -186,17 +200,34 @@ impl Attempts<'_> {
 
     /// Whether all wishes can be granted, as far as that is seen at once.
     fn holds(&self, wishes: &Wishes) -> bool {
-        wishes.iter().flatten().all(|wish| self.is_known(wish)) && self.is_there(wishes)
+        self.held(wishes).is_some()
+    }
+
+    /// What is found out of wishes that can all be granted, as far as that is seen at once.
+    fn held(&self, wishes: &Wishes) -> Option<Held> {
+        let are_known = wishes.iter().flatten().all(|wish| self.is_known(wish));
+        are_known.then(|| self.there(wishes)).flatten()
     }
 
     /// Whether what the first wish is about is there. What later wishes are about may be made by earlier ones.
     fn is_there(&self, wishes: &[Vec<Wish>]) -> bool {
+        self.there(wishes).is_some()
+    }
+
+    /// What the first wish comes to, if what it is about is there.
+    fn there(&self, wishes: &[Vec<Wish>]) -> Option<Held> {
         let Self { scene, stock, focus, .. } = *self;
-        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
-        let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
         // "In front of the place where you get books I'd like a rack": it does not stand anywhere.
-        let is_lost = self.begins_with_place && wishes.iter().flatten().any(is_nowhere);
-        !is_lost && !wishes.first().is_some_and(|readings| readings.iter().all(missing))
+        if self.begins_with_place && wishes.iter().flatten().any(is_nowhere) {
+            return None;
+        }
+        let Some(readings) = wishes.first() else { return Some(Held::default()) };
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        // The first reading that comes to edits counts, and one before it that is refused for another reason says that it is there.
+        readings.iter().find_map(|wish| match finder.edits(wish) {
+            Err(EditError::NotFound { .. }) => None,
+            edits => Some(Held { edits: edits.ok() }),
+        })
     }
 
     fn is_known(&self, wish: &Wish) -> bool {

@@ -61,7 +61,7 @@ fn commas_for_dashes(words: &str, lexemes: &mut Vec<Lexeme>) {
 }
 
 /// Whether a comma was left out together with a sound: "blue, hmm, no", "cake, oh that would be sweet".
-fn hides_sound(between: &str) -> bool {
+pub(super) fn hides_sound(between: &str) -> bool {
     const HEARD: &[&str] = &["hmm", "hm", "oh", "um", "uh", "er", "erm", "ah", "eh", "umm", "hmmm"];
     let mut heard = between.split(|letter: char| !letter.is_alphabetic());
     between.contains(',') && heard.any(|word| HEARD.contains(&word.to_lowercase().as_str()))

@@ -13,9 +13,9 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, made_once,
-    narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt, retold, rows, slips,
-    spared, spoken, talk, view_of, which, whole, wording,
+    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
+    lastly, made_once, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt,
+    retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -33,10 +33,14 @@ pub(crate) fn read(
     let ear = Ear { words, scene, stock, focus };
     let heard = hearing::hear(words, None);
     let read = ear.read(heard.clone());
-    // What is said in one go has nothing that could be left out, and whether it is granted need not be worked out twice.
+    // What is said in one go has nothing that could be left out.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
     let in_one_go = !heard[..last].iter().any(|lexeme| is_mark(lexeme) || chatter::begins_reason(lexeme));
-    if in_one_go || ear.is_granted(&read) { read } else { ear.without_chatter(heard, read) }
+    if ear.is_granted(&read) {
+        return read;
+    }
+    let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
+    if ear.is_granted(&read) { read } else { ear.in_other_words(&heard, read) }
 }
 
 /// A sentence, and the scene in which it is heard.
@@ -75,7 +79,8 @@ impl Ear<'_> {
         let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
         let several = reader.with_several_nearest(&finder);
         let reader = Reader { lexemes: several.as_deref().unwrap_or(reader.lexemes), ..reader };
-        let mut wishes = wishes_of(reader, scene, stock, focus)?;
+        let (mut wishes, held) = wishes_of(reader, scene, stock, focus)?;
+        let said_first = held.as_ref().and_then(|_| wishes.first().cloned());
         if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
             return Err(reader.not_understood("say of what every second one is meant").into());
         }
@@ -86,14 +91,19 @@ impl Ear<'_> {
         gone_once(&mut wishes);
         made_once(&mut wishes);
         paint_at_once(&mut wishes, &finder);
-        Ok(Reading { words: words.to_owned(), wishes })
+        // What was worked out stands for the first wish only while that is as it was.
+        let held = held.filter(|_| wishes.first() == said_first.as_ref());
+        Ok(Reading { words: words.to_owned(), wishes, held, any_of: focus.any_of })
     }
 
     /// Whether a sentence is understood, somebody has what it asks for, and what it is about first is there; or whether what is wrong with it
     /// is something else.
     fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
         match read {
-            Ok(reading) => reading.lacking(self.stock).is_empty() && !self.is_missing(reading),
+            // What was found to be granted while it was read is not worked out anew.
+            Ok(reading) => {
+                reading.held.is_some() || reading.lacking(self.stock).is_empty() && !self.is_missing(reading)
+            }
             Err(refused) => !matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. }),
         }
     }
@@ -140,6 +150,26 @@ impl Ear<'_> {
     }
 }
 
+impl Ear<'_> {
+    /// The sentence as it may have been meant, if that is granted; or else what is wrong with it.
+    fn in_other_words(
+        &self,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let Self { words, scene, stock, focus } = *self;
+        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        for way in lastly::ways(words, heard, &names, stock, focus) {
+            let anew = self.read(way.clone());
+            let anew = if self.is_granted(&anew) { anew } else { self.without_chatter(way, anew) };
+            if self.is_granted(&anew) {
+                return anew;
+            }
+        }
+        read
+    }
+}
+
 /// Puts the words of a sentence plainly, one thing at a time, before it is read.
 fn put_plainly(
     words: &str,
@@ -147,6 +177,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    hesitations::in_plain_words(words, lexemes);
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
     respelt::in_plain_spelling(words, lexemes);

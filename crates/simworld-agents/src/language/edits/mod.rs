@@ -32,7 +32,9 @@ mod given;
 mod goodbye;
 mod ground;
 mod heard;
+mod hesitations;
 mod idle;
+mod lastly;
 mod likened;
 mod loose;
 mod make;
@@ -76,6 +78,7 @@ mod shares;
 mod sizes;
 pub(super) mod sky;
 mod slips;
+mod sounds_like;
 mod spared;
 mod spoken;
 mod spoken_first;
@@ -91,6 +94,7 @@ mod topics;
 mod turn;
 mod turns;
 mod unasked;
+mod weather_told;
 mod which;
 mod whole;
 mod wish;
@@ -99,6 +103,7 @@ pub(super) mod words;
 
 use std::sync::Arc;
 
+use attempts::Held;
 pub(crate) use heard::read;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
@@ -124,6 +129,8 @@ pub(crate) struct Focus {
     pub(crate) made: Vec<EntityId>,
     /// What "there" stands for.
     pub(crate) place: Option<Point2>,
+    /// What was moved or taken away lately, by what it is called and what it is, in small letters, and where it had stood; the last one last.
+    pub(crate) left: Vec<(String, Point2)>,
     /// The streets that were spoken of last.
     pub(crate) roads: Vec<RoadId>,
     /// What streets are called.
@@ -132,12 +139,29 @@ pub(crate) struct Focus {
     pub(crate) any_of: bool,
 }
 
+impl Focus {
+    /// So many places are remembered.
+    const LEFT: usize = 16;
+
+    /// Remembers where something stood that is moved or taken away.
+    pub(crate) fn leaves(&mut self, called: &str, at: Point2) {
+        if self.left.len() >= Self::LEFT {
+            self.left.remove(0);
+        }
+        self.left.push((called.to_lowercase(), at));
+    }
+}
+
 /// A sentence that was read.
 #[derive(Clone, Debug)]
 pub(crate) struct Reading {
     words: String,
     /// Each wish in all its readings.
     wishes: Vec<Vec<Wish>>,
+    /// What was found out of the wishes while they were read, if all of them can be granted.
+    held: Option<Held>,
+    /// Whether of things that are named with an "or" one was to be taken.
+    any_of: bool,
 }
 
 impl Reading {

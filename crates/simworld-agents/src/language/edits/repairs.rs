@@ -4,6 +4,7 @@
 //! What is put right is of the kind of what stands in its place: a number for a number, a colour for a colour, a place for a
 //! place, an order for an order, a thing for a thing.
 
+use super::super::compass::DIRECTIONS;
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
@@ -15,7 +16,7 @@ use super::words::{FACTORS, VERBS, WAYS, Way};
 
 /// That what follows is meant, and what stood before is not.
 #[rustfmt::skip]
-const TAKEN_BACK: &Phrases = &Phrases::of(&["no wait", "wait no", "no no", "no sorry", "sorry no", "i mean", "i meant", "no i mean", "no i meant", "sorry i mean", "scratch that", "correction", "no make that",
+pub(super) const TAKEN_BACK: &Phrases = &Phrases::of(&["no wait", "wait no", "no no", "no sorry", "sorry no", "i mean", "i meant", "no i mean", "no i meant", "sorry i mean", "scratch that", "correction", "no make that",
     "make that", "or rather", "no rather", "oh no", "wait", "no make it", "ok fine", "okay fine", "ok just", "or better", "no better", "better still", "no actually", "actually no",
     "actually make that", "or no", "no not that one", "well i mean", "on second thought", "on second thoughts", "nope", "not that", "oops", "rather", "that is to say", "or simply", "or just", "well ok", "lets say", "let us say",
     "let me say", "say", "shall we say", "or lets say", "no", "well", "sorry", "actually", "ah no", "hang on", "hold on", "no hang on", "no hold on", "sorry make that", "meaning", "strike that", "err", "er", "or actually", "or actually make it", "or actually make that", "actually make it", "or make it", "or make that", "or rather make it", "or rather make that"]);
@@ -45,11 +46,27 @@ const NO_THINGS: &[&str] = &["bit", "lot", "few", "little", "couple", "moment", 
 
 /// Puts what was taken back right, as often as it was.
 pub(super) fn put_right(lexemes: &mut Vec<Lexeme>) {
+    // Nothing is taken back where nothing parts the words.
+    if !lexemes.iter().any(is_mark) {
+        side_by_side(lexemes);
+        return;
+    }
+    without_first_word(lexemes);
     without_dangling(lexemes);
     side_by_side(lexemes);
     for _ in 0..MOST {
         let Some(right) = (1..lexemes.len()).find_map(|at| corrected(lexemes, at)) else { return };
         *lexemes = right;
+    }
+}
+
+/// "Say, ten metres south of the kiosk": before all else it takes nothing back.
+fn without_first_word(lexemes: &mut Vec<Lexeme>) {
+    let said = longest_phrase(lexemes, &["say", "lets say", "let us say", "shall we say"]).unwrap_or(0);
+    let is_comma = lexemes.get(said).is_some_and(|mark| mark.token == Token::Comma);
+    let rest = lexemes.get(said + 1..).unwrap_or_default();
+    if said > 0 && is_comma && (numbers::length(rest).is_some() || longest(rest, &WAYS).is_some()) {
+        lexemes.drain(..=said);
     }
 }
 
@@ -82,8 +99,8 @@ pub(super) const fn needs_anchor(way: Way) -> bool {
     !matches!(way, Way::Here | Way::There | Way::InItsPlace | Way::Anywhere)
 }
 
-/// "Two, no, three benches", "the blue, I mean the red car": of two numbers or colours with nothing between them but words that take back, the
-/// second is meant.
+/// "Two, no, three benches", "the blue, I mean the red car", "north, sorry, south of the hall": of two numbers, colours or directions with nothing
+/// between them but words that take back, the second is meant.
 fn side_by_side(lexemes: &mut Vec<Lexeme>) {
     let mut at = 0;
     while at < lexemes.len() {
@@ -94,9 +111,9 @@ fn side_by_side(lexemes: &mut Vec<Lexeme>) {
     }
 }
 
-/// Where the second of two numbers or colours stands, behind the first and words that take it back.
+/// Where the second of two values stands, behind the first and words that take it back.
 fn beside(lexemes: &[Lexeme], at: usize) -> Option<usize> {
-    let (is_paint, words) = value(&lexemes[at..])?;
+    let (kind, words) = value(&lexemes[at..])?;
     let (mut next, mut is_said) = (at + words, false);
     loop {
         let rest = lexemes.get(next..)?;
@@ -108,17 +125,40 @@ fn beside(lexemes: &[Lexeme], at: usize) -> Option<usize> {
     // "The blue, I mean the red car" has its article already.
     let is_led = at > 0 && is_article(&lexemes[at - 1..at]);
     let the = longest_phrase(&lexemes[next..], &["the", "a", "an"]).filter(|_| is_led).unwrap_or(0);
-    let (is_other_paint, _) = value(&lexemes[next + the..])?;
-    (is_said && is_paint == is_other_paint).then_some(next + the)
+    let (other, _) = value(&lexemes[next + the..])?;
+    // "Left, well, right next to it" is no other side.
+    let is_side = || is_whole_side(&lexemes[next + the..]);
+    (is_said && kind == other && (kind != Value::Side || is_side())).then_some(next + the)
 }
 
-/// A colour, or with `false` a number, at the start; "a" and "one" are none.
-fn value(lexemes: &[Lexeme]) -> Option<(bool, usize)> {
+/// What may be taken back by another of its kind just behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Value {
+    Paint,
+    Number,
+    Compass,
+    Side,
+}
+
+/// A value at the start, and how many words tell it; "a" and "one" are no numbers.
+pub(super) fn value(lexemes: &[Lexeme]) -> Option<(Value, usize)> {
     if let Some((_, words)) = longest(lexemes, PAINTS) {
-        return Some((true, words));
+        return Some((Value::Paint, words));
+    }
+    if let Some((_, words)) = longest(lexemes, DIRECTIONS) {
+        return Some((Value::Compass, words));
+    }
+    if let Some(words) = longest_phrase(lexemes, &["left", "right"]) {
+        return Some((Value::Side, words));
     }
     let is_plain = longest_phrase(lexemes, &["a", "an", "one", "half"]).is_none();
-    numbers::number(lexemes).filter(|_| is_plain).map(|(_, words)| (false, words))
+    numbers::number(lexemes).filter(|_| is_plain).map(|(_, words)| (Value::Number, words))
+}
+
+/// Whether a side at the start is told as one, and is no "right next to".
+pub(super) fn is_whole_side(lexemes: &[Lexeme]) -> bool {
+    lexemes.get(1).is_none_or(is_mark)
+        || longest_phrase(&lexemes[1..], &["of", "side", "hand", "please"]).is_some()
 }
 
 /// Nobody takes back more than that in a sentence.
@@ -324,10 +364,24 @@ mod tests {
             ("remove the blue car, i mean the red", "remove the red car"),
             ("put a boat, no a taxi by the oak", "put a taxi by the oak"),
             ("put a bucket by the oak, no, by the lamp", "put a bucket by the lamp"),
+            ("a tree north, sorry, south of the museum", "a tree south of the museum"),
+            ("a tree left, no, right of the museum", "a tree right of the museum"),
+            ("paint it red, or rather blue", "paint it blue"),
+            ("a station, say, ten metres south of the hall", "a station ten metres south of the hall"),
+            ("say, ten metres south of the hall put a bin", "ten metres south of the hall put a bin"),
+            ("move the red bench, i mean, five metres south", "move the red bench five metres south"),
+            ("move it ten metres north, sorry, five metres south", "move it five metres south"),
+            ("move it five metres north, i mean, ten metres", "move it ten metres north"),
+            ("a bin by the oak, no, ten metres south of the lamp", "a bin ten metres south of the lamp"),
             // Nothing is taken back by these.
             ("put a bench, well away from the oak", "put a bench , well away from the oak"),
             ("put two benches and three chairs here", "put two benches and three chairs here"),
             ("no clouds, please", "no clouds , please"),
+            ("put it left, well, right next to the oak", "put it left , well , right next to the oak"),
+            (
+                "put a bin north of the oak, say, a green one",
+                "put a bin north of the oak , say , a green one",
+            ),
         ] {
             assert_eq!(rewritten(said, put_right), meant, "{said}");
         }

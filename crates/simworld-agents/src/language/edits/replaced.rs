@@ -3,6 +3,7 @@
 //! What is put right is of the kind of what stands in its place: a number for a number, a colour for a colour, a place for a
 //! place, an order for an order, a thing for a thing.
 
+use super::super::compass::DIRECTIONS;
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{Category, category, longest, longest_phrase};
 use super::super::numbers::{self, NUMERALS};
@@ -20,6 +21,9 @@ pub(super) fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Op
         return last(&|at| {
             numbers::number(&before[at..]).filter(|_| is_number(&before[at])).map(|(_, words)| words)
         });
+    }
+    if let Some(found) = length_before(before, meant, clause) {
+        return Some(found);
     }
     if is_look(meant) {
         return look_before(before, meant, clause);
@@ -56,6 +60,42 @@ pub(super) fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Op
     (is_noun && is_word && all > clause).then_some((from, to))
 }
 
+/// Of how far something is what it takes the place of: another length, or else a place; where neither was told, it stands behind all that was
+/// said ("a weather station, say, ten metres south of the hall").
+fn length_before(before: &[Lexeme], meant: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
+    /// Behind a length, that it is one of the way.
+    const LEADS: &[&str] = &["to the", "to its", "to his", "to her", "from", "away", "off", "further"];
+    /// Who that is was told in the place before.
+    const OPEN: &[&str] = &["it", "him", "her", "them", "there", "that"];
+    let all = before.len();
+    let length = |lexemes: &[Lexeme]| numbers::length(lexemes).map(|(_, words)| words);
+    let words = length(meant).filter(|_| !is_article(meant))?;
+    let rest = &meant[words..];
+    let is_way = longest(rest, DIRECTIONS).is_some()
+        || longest(rest, &WAYS).is_some()
+        || longest_phrase(rest, LEADS).is_some();
+    let told = (clause..all).rev().find_map(|at| Some((at, length(&before[at..])?)));
+    let is_place = |at: &usize| {
+        longest(&before[*at..], &WAYS).is_some() || longest(&before[*at..], DIRECTIONS).is_some()
+    };
+    match told.filter(|(at, _)| is_number(&before[*at])) {
+        // "Half a metre" begins with its half.
+        Some((at, old)) if is_way || rest.is_empty() => {
+            let from = (at.saturating_sub(3).max(clause)..at)
+                .find(|from| length(&before[*from..]) == Some(at + old - from))
+                .unwrap_or(at);
+            Some((from, if is_way { all } else { at + old }))
+        }
+        None if is_way => match (clause..all).find(is_place) {
+            // "By the oak, I mean, five metres south of it" says where with both.
+            Some(_) if (0..rest.len()).any(|at| longest_phrase(&rest[at..], OPEN).is_some()) => None,
+            Some(at) => place_before(before, meant, clause).or(Some((at, all))),
+            None => Some((all, all)),
+        },
+        _ => None,
+    }
+}
+
 /// Of a colour or a size what it takes the place of.
 fn look_before(before: &[Lexeme], meant: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
     let last = |fits: &dyn Fn(usize) -> Option<usize>| {
@@ -85,6 +125,12 @@ struct Noun {
 /// The first noun of a class. "Green" is a colour before it is a place.
 fn noun_in(lexemes: &[Lexeme]) -> Option<Noun> {
     (0..lexemes.len()).find_map(|at| noun_at(lexemes, at))
+}
+
+/// The class that is named just here, and where its noun ends.
+pub(super) fn class_at(lexemes: &[Lexeme], at: usize) -> Option<(&'static Category, usize)> {
+    lexemes.get(at..)?;
+    noun_at(lexemes, at).map(|noun| (noun.class, noun.to))
 }
 
 fn noun_at(lexemes: &[Lexeme], at: usize) -> Option<Noun> {

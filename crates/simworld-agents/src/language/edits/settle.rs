@@ -32,7 +32,8 @@ impl Settling {
 
 impl Reading {
     /// The edits that a wish means in the scene as it is: those of its first reading whose things are there. Which is meant of
-    /// several is asked first, so that what is clear in another reading is so under every policy; then the policy takes one.
+    /// several is asked first, so that what is clear in another reading is so under every policy; then the policy takes one. The first
+    /// wish is asked for in the scene in which the sentence was read, so that what it came to then is what it comes to.
     pub(crate) fn resolve(
         &self,
         index: usize,
@@ -41,6 +42,12 @@ impl Reading {
         focus: &Focus,
         policy: AmbiguityPolicy,
     ) -> Result<(Vec<Edit>, Vec<Taken>), EditError> {
+        if index == 0
+            && focus.any_of == self.any_of
+            && let Some(edits) = self.held.as_ref().and_then(|held| held.edits.clone())
+        {
+            return Ok((edits, Vec::new()));
+        }
         let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
         let asked = self.resolve_by(index, &finder);
         if policy == AmbiguityPolicy::Ask || !matches!(asked, Err(EditError::Ambiguous { .. })) {
@@ -146,5 +153,62 @@ impl Finder<'_> {
     /// From where the scene is looked at, m.
     fn distance_to(&self, id: EntityId) -> f64 {
         self.scene.entity(id).map_or(f64::INFINITY, |entity| self.view.distance(&entity))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::asset::Catalogue;
+    use simworld_core::geometry::{Point2, Point3, pose_facing};
+    use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+
+    use super::super::read;
+    use super::*;
+
+    fn two_benches() -> World {
+        let mut world = World::new();
+        for x in [5.0, 9.0] {
+            let pose = pose_facing(Point3::new(x, 0.0, 0.0), 0.0);
+            let bench = EntityDesc::new(EntityKind::Bench, pose, Shape::cuboid(0.6, 1.8, 0.85));
+            world.spawn(bench).unwrap();
+        }
+        world
+    }
+
+    fn focus() -> Focus {
+        Focus {
+            from: Point2::origin(),
+            who: None,
+            it: None,
+            beside: None,
+            made: Vec::new(),
+            place: None,
+            left: Vec::new(),
+            roads: Vec::new(),
+            streets: std::sync::Arc::default(),
+            any_of: false,
+        }
+    }
+
+    #[test]
+    fn what_was_found_while_a_sentence_was_read_is_what_it_comes_to() {
+        let (world, stock, focus) = (two_benches(), Stock::new(Catalogue::standard()), focus());
+        let said = |words: &str| read(words, &world, &stock, &focus).unwrap();
+        let comes_to =
+            |reading: &Reading| reading.resolve(0, &world, &stock, &focus, AmbiguityPolicy::Nearest).unwrap();
+        for words in ["paint the nearest bench red, please", "remove the nearest bench, and make it night"] {
+            let reading = said(words);
+            assert!(reading.held.as_ref().is_some_and(|held| held.edits.is_some()), "{words}");
+            let anew = Reading { held: None, ..reading.clone() };
+            assert_eq!(comes_to(&reading), comes_to(&anew), "{words}");
+        }
+        // Where several fit it is there, and which it is waits for the policy.
+        let open = said("paint the bench red, please");
+        assert!(open.held.as_ref().is_some_and(|held| held.edits.is_none()));
+        assert_eq!(comes_to(&open).1.len(), 1);
+        // In a scene that was read otherwise it is worked out anew.
+        let other = Focus { any_of: true, ..focus.clone() };
+        let reading = said("paint the nearest bench red, please");
+        assert!(reading.resolve(0, &World::new(), &stock, &other, AmbiguityPolicy::Ask).is_err());
     }
 }

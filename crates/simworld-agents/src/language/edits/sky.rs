@@ -84,8 +84,18 @@ impl Heard {
 }
 
 impl Reader<'_> {
-    /// What sky is wished for, if every word up to the end is about it.
+    /// What sky is wished for, if every word up to the end is about it, and is not told beside a request.
     pub(super) fn sky(&self, end: usize) -> Option<Vec<Sky>> {
+        self.sky_named(end).filter(|_| !self.is_sky_told(self.at, end))
+    }
+
+    /// Whether some words are about the sky alone, and told beside a request for something else.
+    pub(super) fn tells_of_sky(&self, from: usize, end: usize) -> bool {
+        Reader { at: from, ..self.up_to(end) }.sky_named(end).is_some() && self.is_sky_told(from, end)
+    }
+
+    /// What sky is named, if every word up to the end is about it.
+    fn sky_named(&self, end: usize) -> Option<Vec<Sky>> {
         let mut at = self.at;
         if matches!(self.word(at), Some("if" | "unless" | "when" | "whenever" | "once"))
             || longest_phrase(&self.lexemes[at..end], &["clear everything", "clear all", "clear it all"])

@@ -175,6 +175,38 @@ pub(super) fn correct(
     });
 }
 
+/// The words with those that nobody knows put right by how they sound, if there are any: "taksi". Names, which are written with a capital, stay.
+pub(super) fn by_sound(
+    words: &str,
+    lexemes: &[Lexeme],
+    names: &Names<'_>,
+    stock: &Stock,
+    streets: &StreetNames,
+) -> Option<Vec<Lexeme>> {
+    let known = Known { own: Own { stock }, names, streets };
+    let mut right = lexemes.to_vec();
+    let mut is_other = false;
+    for lexeme in &mut right {
+        let Token::Word(word) = &lexeme.token else { continue };
+        let written = words.get(lexeme.start..lexeme.end).unwrap_or_default();
+        let is_name = written.starts_with(char::is_uppercase);
+        if is_name || USUAL.iter().any(|(wrong, _)| wrong == word) || known.has(word, written) {
+            continue;
+        }
+        let own = || known.own.all().into_iter().map(|word| (word, !TABLES.contains(word)));
+        let several = || {
+            let noun = super::sounds_like::meant(word.strip_suffix('s')?, own())?;
+            stock.has_word(&noun).then(|| format!("{noun}s"))
+        };
+        if let Some(meant) = super::sounds_like::meant(word, own()).or_else(several) {
+            lexeme.lemma = base_form(&meant);
+            lexeme.token = Token::Word(meant);
+            is_other = true;
+        }
+    }
+    is_other.then_some(right)
+}
+
 /// "Elm St.": such a point ends nothing.
 fn drop_points_of_short_forms(words: &str, lexemes: &mut Vec<Lexeme>) {
     let mut at = 1;

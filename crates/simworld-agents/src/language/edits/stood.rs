@@ -173,7 +173,7 @@ impl Reader<'_> {
 }
 
 /// A point in the place of words.
-fn point_at(place: &Lexeme, point: Point2) -> [Lexeme; 6] {
+pub(super) fn point_at(place: &Lexeme, point: Point2) -> [Lexeme; 6] {
     let token = |token: Token| Lexeme { token, lemma: None, ..place.clone() };
     [
         word_at(place, "at"),

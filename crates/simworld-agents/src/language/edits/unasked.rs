@@ -132,6 +132,10 @@ impl Reader<'_> {
         if longest_phrase(words, WAITS).is_some() && !self.is_guarded(start, to, false) {
             return Kind::Tells;
         }
+        // "Lovely day today" would read as one too.
+        if self.tells_of_sky(start, to) {
+            return Kind::Tells;
+        }
         let named = !self.names_nothing(start, to);
         // "..., it stands near the school" says where.
         let says_where = asked && named && self.word(start).is_some_and(|word| PRONOUNS.contains(&word));

@@ -28,7 +28,7 @@ const THINKS: &Phrases = &Phrases::of(&["let me think", "let me see", "let me th
     "how do i say this", "how should i say", "give me a second", "one moment", "just a second", "wait a second", "where was i", "what was it", "what was it again", "whats it called again", "what do they call it", "what shall i say", "shall we say", "lets say", "say", "you know", "hmm", "hm", "er", "erm", "um", "uh", "umm", "oh", "well", "for example", "for instance", "i guess", "i think", "maybe", "perhaps"]);
 /// Words at which nothing ends.
 #[rustfmt::skip]
-const UNFINISHED: &Phrases = &Phrases::of(&["be", "need", "needs", "want", "wants", "add", "put", "place", "like", "have", "has", "a", "an", "the", "with", "next to", "beside", "behind", "near", "in front of", "of", "get", "build", "plant", "place", "park", "set", "remove", "delete", "paint", "move", "turn", "make", "give me", "see", "to", "between", "opposite", "by", "some", "from", "for", "my", "our"]);
+const UNFINISHED: &Phrases = &Phrases::of(&["be", "need", "needs", "want", "wants", "add", "put", "place", "like", "have", "has", "a", "an", "the", "with", "next to", "beside", "behind", "near", "in front of", "of", "get", "build", "plant", "place", "park", "set", "remove", "delete", "paint", "move", "turn", "make", "give me", "see", "to", "between", "opposite", "by", "some", "from", "for", "my", "our", "at", "into", "onto", "towards", "another", "across from", "left of", "right of"]);
 
 /// Puts them plainly.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
@@ -130,7 +130,8 @@ fn without_thinking(words: &str, lexemes: &mut Vec<Lexeme>) {
     let mut at = 1;
     while at + 1 < lexemes.len() {
         let unfinished = (at.saturating_sub(3)..at)
-            .any(|from| longest_phrase(&lexemes[from..at], UNFINISHED) == Some(at - from));
+            .any(|from| longest_phrase(&lexemes[from..at], UNFINISHED) == Some(at - from))
+            || is_between(lexemes, at);
         let is_soft = |mark: &Lexeme| is_mark(mark) && !is_end(words, mark);
         if unfinished && is_soft(&lexemes[at]) {
             let behind = at + lexemes[at..].iter().take_while(|mark| is_soft(mark)).count();
@@ -148,6 +149,14 @@ fn without_thinking(words: &str, lexemes: &mut Vec<Lexeme>) {
         }
         at += 1;
     }
+}
+
+/// "Between Carol and": the other of the two is still to come, where any other "and" may begin a remark.
+pub(super) fn is_between(lexemes: &[Lexeme], at: usize) -> bool {
+    let clause = lexemes[..at].iter().rposition(is_mark).map_or(0, |mark| mark + 1);
+    at > clause
+        && word(lexemes, at - 1) == "and"
+        && (clause..at - 1).any(|from| word(lexemes, from) == "between")
 }
 
 /// Whether a mark is one that ends a sentence.
@@ -257,6 +266,8 @@ mod tests {
     #[test]
     fn what_is_said_while_thinking_goes_with_its_commas() {
         assert_eq!(plain("by the office I need, let me think, a bin"), "by the office i need a bin");
+        assert_eq!(plain("put it at, let's see, the fountain"), "put it at the fountain");
+        assert_eq!(plain("a bin between carol and, let me think, dmitri"), "a bin between carol and dmitri");
         assert_eq!(plain("add a bench, let me think, and a bin"), "add a bench , let me think , and a bin");
     }
 

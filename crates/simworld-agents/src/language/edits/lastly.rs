@@ -1,0 +1,221 @@
+//! What is tried last of all, where a sentence is refused in every other way: words that sound like known ones, where something stood ("in the
+//! scooter's old place"), sides that are told by whose they are ("at the tree's foot"), and turns of phrase in the notation of [`super::turns`].
+//!
+//! Each comes to plainer words that are heard anew, and counts only if these are granted. So nothing that is understood is read otherwise.
+
+use simworld_core::geometry::Point2;
+
+use super::super::lexer::{Lexeme, is_mark, word_of};
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::names::Names;
+use super::super::phrases::Phrases;
+use super::forms::{word, word_at, words_at};
+use super::retold::{Turns, told_by};
+use super::stood::point_at;
+use super::words::{VERBS, Verb};
+use super::{Focus, slips};
+use crate::editing::Stock;
+
+/// Turns of phrase and what they mean, of one sentence each.
+#[rustfmt::skip]
+const LASTLY: &Turns = &[
+    // Where somebody or something is to be.
+    ("O he belongs|goes|should|must|shall|wants|has|ought|needs to|- be|stand|go|sit|wait|stay|come|move|belong|live|- over|down|right|- W", "O move him W"),
+    ("O she belongs|goes|should|must|shall|wants|has|ought|needs to|- be|stand|go|sit|wait|stay|come|move|belong|live|- over|down|right|- W", "O move her W"),
+    ("O it|that|this belongs|goes|should|must|shall|wants|has|ought|needs to|- be|stand|go|sit|stay|come|move|belong|live|- over|down|right|- W", "O move it W"),
+    ("O they|those|these belong|go|should|must|shall|have|ought|need to|- be|stand|go|sit|wait|stay|come|move|belong|live|- over|down|right|- W", "O move them W"),
+    ("O N wants|likes|prefers|longs|deserves|loves to be|stand|go|sit|live|stay|rest|lie|move|sleep over|up|down|back|- W", "O move N W"),
+    ("O D A wants|likes|prefers|deserves|needs to be|stand|go|sit|live|stay|rest W", "O add D A W"),
+    ("O set|put|lay|place|stand|drop|park|plonk N down W", "O move N W"),
+    ("O set|put|lay|place|stand|drop|park|plonk D A down W", "O put D A W"),
+    ("O erect|install|instal|plant|mount|plonk|bung|chuck|whack|stick N down|up|over|- W", "O move N W"),
+    ("O could|can|might|may we|i please|- have|get|see N over|- W", "O move N W"),
+    ("O id|wed like|love to|- see|have|- N over|- W", "O move N W"),
+    ("O i|we would like|love to|- see|have|- N over|- W", "O move N W"),
+    ("O put|place|add|set|build|plant|park|install|stick|plonk D A in|at|on place|stead|lieu of N", "O replace N with D A"),
+    ("O have|let|make|get N to|- face|view V", "O make N face V"),
+    ("O have|let|make|get N to|- look|point|gaze at|to|towards|toward V", "O make N face V"),
+    // A little way.
+    ("O scoot|scooch|shift|move|budge|shove|nudge|slide over|along|up|across N W", "O move N W"),
+    ("O bring|move|push|pull|shift|scoot|nudge|slide closer|nearer N to V", "O move N closer to V"),
+    ("O push|move|pull|shift|set|nudge|slide|scoot|shove N back|backwards|backward by|- M", "O move N M back"),
+    ("O push|move|pull|shift|set|nudge|slide|scoot|shove back N by|- M", "O move N M back"),
+    ("O push|move|pull|shift|bring|nudge|slide|scoot|shove N forward|forwards by|- M", "O move N M forward"),
+    ("O push|move|pull|shift|bring|nudge|slide|scoot|shove forward|forwards N by|- M", "O move N M forward"),
+    // Sizes. A head is the eighth part of somebody of 1.75 m.
+    ("O make N a|one head taller|bigger|higher", "O make N twenty two centimetres taller"),
+    ("O make it a|one head taller|bigger|higher", "O make it twenty two centimetres taller"),
+    ("O make N a|one head shorter|smaller|lower", "O make N twenty two centimetres shorter"),
+    ("O make it a|one head shorter|smaller|lower", "O make it twenty two centimetres shorter"),
+    ("O blow|scale|size|bump N up F", "O make N F"),
+    ("O blow|scale|size|bump up N F", "O make N F"),
+    ("O blow|scale|size|bump N up to twice|double", "O make N twice as big"),
+    ("O blow|scale|size|bump up N to twice|double", "O make N twice as big"),
+    ("O shrink|scale|cut|reduce|trim N down F", "O make N F"),
+    ("O shrink|scale|cut|reduce|trim down N F", "O make N F"),
+    ("O enlarge|magnify|grow|inflate|expand|upscale|shrink|reduce N F", "O make N F"),
+    // About-turns.
+    ("O give N an|a about turn|face", "O turn N around"),
+    ("O have|let|make N do|make|take|perform|- an|a about turn|face", "O turn N around"),
+    ("O N should|must|has|needs|could|can|to to|- do|make|take an|a about turn|face", "O turn N around"),
+    ("O about turn|face N", "O turn N around"),
+    ("O an|- about turn|face for|of N", "O turn N around"),
+    ("O turn|spin|swing N about face|turn|-", "O turn N around"),
+    // What goes, and what comes instead.
+    ("O swap|switch|change|trade out N for|with D A", "O replace N with D A"),
+    ("O swap|switch|change|trade N out for|with D A", "O replace N with D A"),
+    ("O chuck|toss|sling|dump|lose|bin N", "O remove N"),
+    ("N needs|has|ought|wants to go|vanish|disappear|leave", "remove N"),
+    ("N can|may|must go|vanish|disappear|leave now|-", "remove N"),
+    // Proposals.
+    ("O knock|rig|throw|cobble|slap|whip D A up|together W", "O put D A W"),
+    ("what if there was|were|is|are D A", "add D A"),
+    ("what if we|i|you had|got|put|added|placed|built|planted|stuck|parked|installed|erected D A", "add D A"),
+    ("what if N was|were|stood|sat|went W", "move N W"),
+    ("what if N was|were K", "paint N K"),
+    ("what if we|i|you moved|shifted|pushed|put|placed|nudged N W", "move N W"),
+    ("what if we|i|you painted|made N K", "paint N K"),
+    ("what if we|i|you removed|scrapped|ditched|deleted|binned|dropped|lost N", "remove N"),
+    ("what if we|i|you got rid of N", "remove N"),
+    ("wouldnt|would|couldnt it|that be X if there was|were|is D A", "add D A"),
+    ("wouldnt|would|couldnt it|that be X if we|i|you|they had|got|put|added|placed|built|planted|parked D A", "add D A"),
+    ("wouldnt|would|couldnt it|that be X if N was|were|stood|sat|went W", "move N W"),
+    ("wouldnt|would|couldnt it|that be X if N was|were K", "paint N K"),
+    ("wouldnt|would|couldnt it|that be X to have|see|get|add|put D A", "add D A"),
+    ("how|what about moving|shifting|putting|placing|pushing N W", "move N W"),
+    ("how|what about painting|making N K", "paint N K"),
+    ("how|what about removing|ditching|scrapping|binning|deleting|losing N", "remove N"),
+    ("how|what about getting rid of N", "remove N"),
+    ("how|what about putting|adding|placing|building|planting|having D A", "add D A"),
+    ("how|what about D A W", "add D A W"),
+];
+/// Before a noun.
+const DETERMINERS: &Phrases = &Phrases::of(&["the", "that", "this", "my", "our"]);
+/// Before a place that is told by whose it is.
+const LEADS: &Phrases = &Phrases::of(&["in", "at", "on", "to", "into", "by", "near", "beside"]);
+/// A place that something had.
+const OLD: &Phrases = &Phrases::of(&["old", "former", "previous", "last", "original", "earlier"]);
+const PLACE: &Phrases = &Phrases::of(&["place", "spot", "position", "location", "corner", "site"]);
+/// Behind "where" and a thing, that it is no longer there.
+#[rustfmt::skip]
+const STOOD: &Phrases = &Phrases::of(&["was", "were", "stood", "used to be", "used to stand", "used to sit", "used to lie", "had been", "had stood", "lay", "sat", "was before", "was standing", "has been", "has stood"]);
+/// The parts of a thing at which something may stand, and where that is.
+#[rustfmt::skip]
+const SIDES: &[(&[&str], &str)] = &[
+    (&["foot", "feet", "base", "side", "flank"], "next to"), (&["front", "front side", "face", "entrance"], "in front of"), (&["back", "rear", "back side"], "behind"),
+    (&["left", "left side", "left hand", "left hand side"], "to the left of"), (&["right", "right side", "right hand", "right hand side"], "to the right of"),
+    (&["top"], "on top of"), (&["corner"], "at the corner of"), (&["edge", "rim"], "at the edge of"), (&["middle", "centre", "center", "heart"], "in the middle of"),
+];
+/// As many words stand at most between a word of place and whose place it is.
+const LONGEST: usize = 4;
+
+/// What a sentence may have been meant to say, in plainer words, the nearest first.
+pub(super) fn ways(
+    words: &str,
+    heard: &[Lexeme],
+    names: &Names<'_>,
+    stock: &Stock,
+    focus: &Focus,
+) -> Vec<Vec<Lexeme>> {
+    let mut spelt = heard.to_vec();
+    slips::correct(words, &mut spelt, names, stock, &focus.streets);
+    let by_sound = |lexemes: &[Lexeme]| slips::by_sound(words, lexemes, names, stock, &focus.streets);
+    // A slip that was put right by its letters may have been one of sound.
+    let sounded = by_sound(&spelt).or_else(|| by_sound(heard));
+    let plain = sounded.clone().unwrap_or(spelt);
+    let placed = in_old_places(words, &plain, focus).or_else(|| at_its_side(words, &plain));
+    let told = told_by(placed.as_deref().unwrap_or(&plain), &[LASTLY]);
+    let is_told = !is_same(&told, placed.as_deref().unwrap_or(&plain));
+    sounded.into_iter().chain(placed).chain(is_told.then_some(told)).collect()
+}
+
+fn is_same(one: &[Lexeme], other: &[Lexeme]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.token == other.token)
+}
+
+/// "In the scooter's old place", "where the scooter used to stand": where it stood within the sentence, or before it was moved or taken away by an
+/// earlier one.
+fn in_old_places(words: &str, lexemes: &[Lexeme], focus: &Focus) -> Option<Vec<Lexeme>> {
+    (0..lexemes.len()).find_map(|at| {
+        let (noun, end) = whose_old_place(words, lexemes, at).or_else(|| where_it_stood(lexemes, at))?;
+        let mut told = lexemes.to_vec();
+        let place = &lexemes[at];
+        if is_told_before(lexemes, at, &noun) {
+            let stood = words_at(place, "where").chain(noun).chain(words_at(place, "stood"));
+            told.splice(at..end, stood.collect::<Vec<_>>());
+            return (!is_same(&told, lexemes)).then_some(told);
+        }
+        let point = left_by(focus, word_of(noun.last()?))?;
+        told.splice(at..end, point_at(place, point));
+        Some(told)
+    })
+}
+
+/// "In the scooter's old place": the scooter, and where the words end.
+fn whose_old_place(words: &str, lexemes: &[Lexeme], at: usize) -> Option<(Vec<Lexeme>, usize)> {
+    let (noun, behind) = whose(words, lexemes, at)?;
+    let old = longest_phrase(&lexemes[behind..], OLD)?;
+    let place = longest_phrase(lexemes.get(behind + old..)?, PLACE)?;
+    Some((noun, behind + old + place))
+}
+
+/// "Where the scooter used to stand": the scooter, and where the words end.
+fn where_it_stood(lexemes: &[Lexeme], at: usize) -> Option<(Vec<Lexeme>, usize)> {
+    if word(lexemes, at) != "where" {
+        return None;
+    }
+    longest_phrase(lexemes.get(at + 1..)?, DETERMINERS)?;
+    (at + 3..lexemes.len().min(at + 2 + LONGEST)).find_map(|from| {
+        let end = from + longest_phrase(&lexemes[from..], STOOD)?;
+        let is_end = lexemes.get(end).is_none_or(is_mark) || ["and", "please"].contains(&word(lexemes, end));
+        is_end.then(|| (lexemes[at + 1..from].to_vec(), end))
+    })
+}
+
+/// "At the tree's foot" is next to the tree.
+fn at_its_side(words: &str, lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
+    (0..lexemes.len()).find_map(|at| {
+        let (noun, behind) = whose(words, lexemes, at)?;
+        let (way, side) = longest(lexemes.get(behind..)?, SIDES)?;
+        let end = behind + side;
+        let is_end =
+            lexemes.get(end).is_none_or(is_mark) || ["and", "please", "then"].contains(&word(lexemes, end));
+        let mut told = lexemes.to_vec();
+        let way = words_at(&lexemes[at], way).chain(noun);
+        is_end.then(|| {
+            told.splice(at..end, way.collect::<Vec<_>>());
+            told
+        })
+    })
+}
+
+/// "In the scooter's": whose something is, behind a word of place, and where what that is begins.
+fn whose(words: &str, lexemes: &[Lexeme], at: usize) -> Option<(Vec<Lexeme>, usize)> {
+    let from = at + longest_phrase(&lexemes[at..], LEADS)?;
+    let last = (from..lexemes.len().min(from + LONGEST)).find(|last| {
+        let lexeme = &lexemes[*last];
+        let written = words.get(lexeme.start..lexeme.end).unwrap_or_default();
+        word_of(lexeme).ends_with('s') && ["'s", "’s", "s'", "s’"].iter().any(|end| written.ends_with(*end))
+    })?;
+    let owner = word_of(&lexemes[last]).strip_suffix('s').filter(|owner| !owner.is_empty())?;
+    let mut noun = lexemes[from..last].to_vec();
+    noun.push(word_at(&lexemes[last], owner));
+    (!noun.iter().any(is_mark) && last + 1 < lexemes.len()).then_some((noun, last + 1))
+}
+
+/// Whether a thing is named before a word, in an order that moves it or takes it away.
+fn is_told_before(lexemes: &[Lexeme], at: usize, noun: &[Lexeme]) -> bool {
+    let is_moved = |from: usize| {
+        longest(&lexemes[from..at], &VERBS)
+            .is_some_and(|(verb, _)| matches!(verb, Verb::Move | Verb::Remove | Verb::Put | Verb::Take))
+    };
+    let is_named =
+        |from: usize| noun.last().is_some_and(|noun| word(lexemes, from) == word_of(noun) && from > 0);
+    (0..at).any(is_moved) && (0..at).any(is_named)
+}
+
+/// Where the last thing stood that was moved or taken away and is called so.
+fn left_by(focus: &Focus, noun: &str) -> Option<Point2> {
+    let is_called = |name: &str| name.split([' ', '_']).any(|word| word == noun);
+    focus.left.iter().rev().find(|(name, _)| is_called(name)).map(|(_, at)| *at)
+}
