@@ -342,7 +342,7 @@ impl Parser<'_> {
         } else {
             Some(self.reference(0)?)
         };
-        self.eat_any(&["down", "off", "up", "over", "across", "back"]);
+        self.eat_any(&["down", "off", "up", "over", "across", "back", "aside", "away"]);
         if manner != Manner::Deliver {
             self.eat_any(ON_THE_GROUND);
         }
