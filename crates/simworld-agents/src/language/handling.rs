@@ -34,6 +34,12 @@ const PLACES: &Phrases = &Phrases::of(&[
     "across to", "over at", "by", "along to", "out to", "round to", "off at", "down at", "down by",
     "down on", "down in", "outside", "straight to",
 ]);
+/// Where everything falls that is put down.
+#[rustfmt::skip]
+const ON_THE_GROUND: &Phrases = &Phrases::of(&[
+    "on the ground", "on the floor", "onto the ground", "onto the floor", "to the ground", "to the floor", "down on the ground",
+    "down on the floor",
+]);
 
 /// Who may look on.
 #[rustfmt::skip]
@@ -169,25 +175,6 @@ impl Parser<'_> {
         self.eat_any(ME_TO) || brings_me && self.eat_any(&["to", "over to", "back to"])
     }
 
-    /// "Fetch Gus a newspaper", "fetch Hana the letter".
-    fn fetched_for(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        let start = self.at;
-        let Some(whom) = self.somebody_here() else { return Ok(None) };
-        let at = self.at;
-        if let Some(goods) = self.wished_goods().or_else(|| self.goods()) {
-            return self.purchase(goods, Some(whom)).map(Some);
-        }
-        self.at = at;
-        let named = !self.ends_clause()
-            && (longest_phrase(self.rest(), &["the", "a", "that", "his", "her", "my"]).is_some()
-                || category(self.rest()).is_some());
-        if named && let Ok(what) = self.reference(0) {
-            return Ok(Some(vec![Clause::Give { what: Some(what), to: whom }]));
-        }
-        self.at = start;
-        Ok(None)
-    }
-
     /// "Take its picture", "take Anna's photo".
     pub(super) fn portrait(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         const WHOSE: &[(&[&str], Target)] =
@@ -261,7 +248,7 @@ impl Parser<'_> {
         if let Some(clauses) = self.gesture_to()? {
             return Ok(clauses);
         }
-        let somebody = self.somebody_here();
+        let somebody = self.somebody_presented();
         let what_at = self.at;
         if let Some(goods) = self.goods() {
             let known =
@@ -303,6 +290,7 @@ impl Parser<'_> {
         if self.ends_clause() {
             return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
         }
+        self.at += usize::from(self.is_somebody(&first) && self.peeks("with")); // "present Anna with the letter"
         Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
     }
 
@@ -354,7 +342,10 @@ impl Parser<'_> {
         } else {
             Some(self.reference(0)?)
         };
-        self.eat_any(&["down", "off", "up", "over", "across", "back"]);
+        self.eat_any(&["down", "off", "up", "over", "across", "back", "aside", "away"]);
+        if manner != Manner::Deliver {
+            self.eat_any(ON_THE_GROUND);
+        }
         let mut at = self.tail_place(PLACES)?;
         let what = what.map(|mut what| {
             // "Put the cone next to the bin" says where to, and not which cone.

@@ -7,6 +7,7 @@
 //!
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
+mod adjectives;
 mod again;
 mod alternatives;
 mod asides;
@@ -29,6 +30,7 @@ mod draft;
 mod driving;
 pub(crate) mod edits;
 mod enumerated;
+mod fetched;
 mod following;
 mod fractions;
 mod fronted;

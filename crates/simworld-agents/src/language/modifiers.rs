@@ -171,7 +171,9 @@ impl Parser<'_> {
             reference.traits.state = Some(state);
             self.at += words;
         } else {
-            let idle = longest_phrase(self.rest(), IDLE).filter(|_| self.names.exact(self.rest()).is_none());
+            let idle = longest_phrase(self.rest(), IDLE)
+                .filter(|_| self.names.exact(self.rest()).is_none())
+                .or_else(|| self.weighs_little());
             self.at += idle.unwrap_or(0);
             return idle.is_some();
         }

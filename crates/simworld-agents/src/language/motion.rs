@@ -65,7 +65,26 @@ pub(super) enum Sense {
 pub(super) const SENSES: &[(&[&str], Sense)] = &[
     (&["left", "to the left", "to your left", "leftwards", "anticlockwise", "counterclockwise"], Sense::Left),
     (&["right", "to the right", "to your right", "rightwards", "clockwise"], Sense::Right),
-    (&["around", "round", "back", "about", "u turn"], Sense::Around),
+    (
+        &[
+            "around",
+            "round",
+            "back",
+            "about",
+            "u turn",
+            "you turn",
+            "the other way",
+            "the other way round",
+            "the other way around",
+            "the opposite way",
+            "the other direction",
+            "the opposite direction",
+            "in the opposite direction",
+            "completely around",
+            "completely round",
+        ],
+        Sense::Around,
+    ),
 ];
 
 impl Parser<'_> {

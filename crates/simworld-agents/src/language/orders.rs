@@ -401,7 +401,8 @@ impl Parser<'_> {
     /// "Take two photos of the fountain".
     fn photos(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
         let times = self.number_of_photos();
-        let shoots = fits(&self.lexemes[start..self.at], "shoot").is_some();
+        let alone = longest_verb(&self.lexemes[start..]).is_some_and(|(_, words)| words == 1);
+        let shoots = alone && fits(&self.lexemes[start..self.at], "shoot").is_some();
         if shoots && times == 0 {
             return Err(self.not_understood("say what to take a photo of"));
         }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::lexer::{Lexeme, is_mark, word_of};
+use super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::phrases::{Index, Phrases};
 use super::verbs::longest_verb;
 
@@ -13,7 +13,19 @@ fn index(phrases: &'static [&'static str]) -> Index<()> {
 /// How many tokens of politeness begin here.
 pub(super) fn filler(lexemes: &[Lexeme]) -> Option<usize> {
     static INDEX: LazyLock<Index<()>> = LazyLock::new(|| index(FILLERS));
-    INDEX.longest(lexemes).map(|((), words)| words)
+    INDEX.longest(lexemes).map(|((), words)| words).filter(|words| !proceeds(lexemes, *words))
+}
+
+/// Whether so many words are "proceed to" before a place: "proceed to the exit" leads there, and "proceed to sit down" says no more than
+/// "sit down".
+fn proceeds(lexemes: &[Lexeme], words: usize) -> bool {
+    let after = &lexemes[words..];
+    let is_point = || {
+        after.first().is_some_and(|first| word_of(first) == "point")
+            && matches!(after.get(1), Some(Lexeme { token: Token::Open, .. }))
+    };
+    lexemes.first().is_some_and(|first| word_of(first) == "proceed")
+        && (longest_verb(after).is_none() || is_point())
 }
 
 /// How many tokens join two orders here.

@@ -73,7 +73,7 @@ impl Parser<'_> {
         let bare = self.spoken_of(&reference);
         reference.target = match bare {
             Some(target) => target,
-            None => self.sort_or_noun(&mut reference)?,
+            None => self.noun_however_described(&mut reference)?,
         };
         self.compound(&mut reference, text_at);
         self.by_name(&mut reference)?;
@@ -249,7 +249,7 @@ impl Parser<'_> {
     }
 
     /// What things are made of if that is said, or else a name or a class.
-    fn sort_or_noun(&mut self, reference: &mut Reference) -> Result<Target, PlanError> {
+    pub(super) fn sort_or_noun(&mut self, reference: &mut Reference) -> Result<Target, PlanError> {
         let Some((class, asset)) = self.sort() else { return self.noun(reference.choice != Choice::Open) };
         reference.traits.sort = Some(asset);
         Ok(Target::Any(class))

@@ -83,10 +83,11 @@ impl Parser<'_> {
         if let Some(goods) = self.wished_goods() {
             return self.purchase(goods, None);
         }
+        let start = self.at;
         let whom = self.receiver();
         match self.wished_goods().or_else(|| self.goods()) {
             Some(goods) => self.purchase(goods, whom),
-            None => Err(self.not_sold()),
+            None => self.fetched_rather(start).ok_or_else(|| self.not_sold()),
         }
     }
 

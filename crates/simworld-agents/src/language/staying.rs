@@ -25,6 +25,10 @@ const TO_COME: &Phrases = &Phrases::of(&[
 
 impl Parser<'_> {
     pub(super) fn sit(&mut self) -> Result<Vec<Clause>, PlanError> {
+        // "Sink into a chair", "occupy the bench": what leads to the seat is part of the verb.
+        if ["on", "onto", "into", "occupy"].contains(&self.word_before()) && !self.ends_clause() {
+            return Ok(vec![Clause::Sit { on: Some(self.reference(0)?) }]);
+        }
         self.eat_any(&["there", "here", "down"]);
         let start = self.at;
         let beside = if self.eat_any(&["at"]) {

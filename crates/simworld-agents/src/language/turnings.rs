@@ -31,6 +31,10 @@ const EACH_TIME: &Phrases = &Phrases::of(&[
 impl Parser<'_> {
     /// After "turn": which way, and at what if one has to go there first.
     pub(super) fn turn_somewhere(&mut self) -> Result<Vec<Clause>, PlanError> {
+        if self.turned_about() && self.ends_clause() {
+            self.turned = Some(1.0);
+            return Ok(vec![Clause::Turn { angle: std::f64::consts::PI }]);
+        }
         let turn = self.turn()?;
         let start = self.at;
         if matches!(turn, Clause::Turn { .. })
@@ -43,6 +47,13 @@ impl Parser<'_> {
         }
         self.at = start;
         Ok(vec![turn])
+    }
+
+    /// Whether the verb itself says that one turns round: "swing round", "do an about turn", "reverse direction".
+    fn turned_about(&self) -> bool {
+        let before = |back: usize| self.at.checked_sub(back).map_or("", |at| self.word_before_at(at));
+        ["around", "round", "about", "direction"].contains(&before(0))
+            || ["turn", "face"].contains(&before(0)) && before(1) == "about"
     }
 
     /// "..., taking a photo each time": what is done each time that the order before is.
