@@ -93,6 +93,16 @@ pub(crate) struct Permit {
 }
 
 impl Permit {
+    /// Whose it is.
+    pub(super) fn id(&self) -> u32 {
+        self.id
+    }
+
+    /// Whether it is of a cluster.
+    pub(super) fn is_of(&self, cluster: u32) -> bool {
+        self.cluster == cluster
+    }
+
     pub(super) fn is_for(&self, id: u32, cluster: u32) -> bool {
         self.id == id && self.cluster == cluster
     }

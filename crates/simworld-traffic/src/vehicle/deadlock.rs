@@ -1,13 +1,16 @@
-//! Locks: rings of lanes, each full, whose first vehicles wait for room in the next; and how they are undone.
+//! Locks: rings of lanes whose first vehicles wait for those of the next; and how they are undone.
 //!
-//! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane. Every lane
-//! waits for one at most, so that rings are found by following. A ring is undone by those of its first vehicles that have
-//! another way with room, which they take; if none has, all of them may enter their junctions at once without room behind: as
-//! all go, each makes the room of the one behind it. Nobody jumps, and all other rules of crossing hold.
+//! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane; so it does if one
+//! who stands there has his rear across its way, or the permit of a [cluster](super::clusters) that it needs, and if one who
+//! changes lanes stands before it in both. Every lane waits for one at most, so that rings are found by following. A ring is
+//! undone by those of its first vehicles that have another way with room, which they take; if none has, all of them may enter
+//! their junctions at once without room behind and without a permit: as all go, each makes the room of the one behind it.
+//! Nobody jumps, and all other rules of crossing hold.
 
 use super::clock::Moment;
 use super::junction::is_room;
-use super::manager::{EXIT, NONE, STANDING, Vehicle, VehicleManager};
+use super::lane_change::{old_lane, stretch};
+use super::manager::{EXIT, NONE, Path, STANDING, Vehicle, VehicleManager};
 use super::part::Tail;
 use super::tracks::{Track, Tracks};
 use crate::{Counters, Leg, TrafficConfig};
@@ -15,6 +18,8 @@ use crate::{Counters, Leg, TrafficConfig};
 /// Who has stood for so long may be in a lock, s. Whatever the signals show: where each of a ring waits for room behind a lane
 /// that stands, nobody goes.
 const LOCKED: f64 = 12.0;
+/// Who stands farther than this from its line stands behind something, m.
+const SHORT: f64 = 3.0;
 /// Locks are looked for so often, s.
 const EVERY: f64 = 1.0;
 
@@ -69,7 +74,9 @@ impl VehicleManager {
         let mut waits = std::mem::take(&mut self.waits);
         waits.edges.clear();
         for (lane, queue) in self.queues(tracks) {
-            if let Some(target) = queue.first().and_then(|first| self.waits_for(tracks, config, first)) {
+            if let Some(target) =
+                queue.first().and_then(|first| self.waits_behind(tracks, config, lane, first))
+            {
                 waits.edges.push((lane, target, 0));
             }
         }
@@ -81,6 +88,71 @@ impl VehicleManager {
             }
         }
         self.waits = waits;
+    }
+
+    /// The lane whose first vehicle keeps the first of another from going on, if it has stood for long: for want of room there, since
+    /// somebody who stands there has his rear in the way or the permit, or stands in both lanes.
+    fn waits_behind(
+        &self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        lane: Track,
+        first: &Vehicle,
+    ) -> Option<Track> {
+        if first.next >= EXIT
+            || first.holding == first.next
+            || first.halt.is_finite()
+            || first.stood <= LOCKED
+        {
+            return None;
+        }
+        let half_changed = || self.who_changes_before(tracks, lane, first);
+        let rear = || self.rear_in_the_way(tracks, first);
+        let permit = || self.holder_of_permit(tracks, first);
+        self.waits_for(tracks, config, first).or_else(half_changed).or_else(rear).or_else(permit)
+    }
+
+    /// The lane beside on which somebody stands who has not quite left this one, before its first.
+    fn who_changes_before(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
+        let end = tracks.length[lane as usize];
+        let beside = tracks.beside[lane as usize].into_iter().filter(|beside| *beside != NONE);
+        let stands_in_both = |beside: &Track| {
+            let ahead = first.s * stretch(tracks, lane, *beside);
+            let mut queue = self.queue(tracks, *beside).iter();
+            queue.any(|v| {
+                v.s > ahead && v.v < STANDING && v.shift != 0.0 && old_lane(tracks, *beside, v) == Some(lane)
+            })
+        };
+        (end - first.s > SHORT).then(|| beside.into_iter().find(stands_in_both)).flatten()
+    }
+
+    /// The lane on which somebody stands whose rear is on a way that meets one's own.
+    fn rear_in_the_way(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
+        let way = first.next as usize;
+        let conflicts = tracks.conflicts[way].iter().map(|conflict| conflict.way);
+        let mut meeting = conflicts.chain(tracks.tight[way].iter().copied());
+        let stands_on = |way: &u32| {
+            let lane = tracks.lane_after(*way as usize);
+            let last = self.queue(tracks, lane).last().zip(self.paths(tracks, lane).last());
+            last.is_some_and(|(last, path)| {
+                let is_behind = path.before as usize == tracks.lanes + *way as usize;
+                last.v < STANDING && last.s < last.length() && is_behind
+            })
+        };
+        meeting.find(stands_on).map(|way| tracks.lane_after(way as usize))
+    }
+
+    /// The lane on which somebody stands who has the permit that one needs.
+    fn holder_of_permit(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
+        let cluster = tracks.clusters.of(tracks, tracks.lane_after(first.next as usize), first)?;
+        if self.permits.iter().any(|permit| permit.is_for(first.id, cluster)) {
+            return None;
+        }
+        let holders = self.permits.iter().filter(|permit| permit.is_of(cluster));
+        let stands = |(track, vehicle, _): (Track, &Vehicle, &Path)| {
+            (tracks.connection(track).is_none() && vehicle.stood > LOCKED).then_some(track)
+        };
+        holders.filter_map(|permit| self.find(tracks, permit.id())).find_map(stands)
     }
 
     /// The lane for room on which the first of a lane has long waited.

@@ -273,7 +273,7 @@ impl Part {
             let track = self.layout(scene.tracks).tracks[lane];
             let is_free = self.leaves_room_to_the_patient(scene, &vehicle);
             if is_free && may_enter(self, scene, (track, rank), &vehicle, &mut overtaken) {
-                if let Some(wish) = wants_permit(scene, &vehicle) {
+                if let Some(wish) = wants_permit(scene, &vehicle).filter(|_| !may_pass(scene, &vehicle)) {
                     self.work.wishes.push(wish);
                     continue;
                 }
@@ -309,9 +309,14 @@ impl Part {
         }
     }
 
-    /// Whether the room that a vehicle would take is kept for nobody else.
+    /// Whether the room that a vehicle would take is kept for nobody else. Who stands between near junctions goes first: the other
+    /// may wait for him to be out of there.
     fn leaves_room_to_the_patient(&self, scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
-        let lane = scene.tracks.lane_after(vehicle.next as usize);
+        let way = vehicle.next as usize;
+        let lane = scene.tracks.lane_after(way);
+        if scene.tracks.clusters.of(scene.tracks, scene.tracks.ways[way].from, vehicle).is_some() {
+            return true;
+        }
         let mut reserved = self.work.reserved.iter();
         reserved.find(|(kept, _)| *kept == lane).is_none_or(|(_, id)| *id == vehicle.id)
             || may_pass(scene, vehicle)

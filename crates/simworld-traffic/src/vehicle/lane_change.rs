@@ -178,8 +178,13 @@ impl Part {
         let towards = |leg| {
             (wish.lost && leads_towards(tracks, scene.closures, lane, target, leg, kind)).then_some(NONE)
         };
-        let way = wanted
-            .and_then(|leg| tracks.way_to(scene.closures, target, leg, after, kind).or_else(|| towards(leg)));
+        // Who turns at random does not change from a way on to one that ends somewhere.
+        let ends = |way: u32| {
+            let leads_on = |way: u32| tracks.leads_on[tracks.lane_after(way as usize) as usize];
+            path.route == NONE && !wish.lost && leads_on(vehicle.next) && !leads_on(way)
+        };
+        let way_to = |leg| tracks.way_to(scene.closures, target, leg, after, kind).filter(|way| !ends(*way));
+        let way = wanted.and_then(|leg| way_to(leg).or_else(|| towards(leg)));
         // Who drives it may leave the lane of its route.
         way.or(wish.asked.map(|_| NONE))
     }

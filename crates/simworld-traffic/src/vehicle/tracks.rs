@@ -176,7 +176,7 @@ impl Tracks {
     }
 
     /// The way from a lane to an open lane of a leg, if one leads there; best to one on which the kind may drive, and from which
-    /// the leg `after` that is reached.
+    /// the leg `after` that is reached, or, for who has none, one can drive on.
     pub(crate) fn way_to(
         &self,
         closures: &Closures,
@@ -190,10 +190,10 @@ impl Tracks {
         let ways = self.exits[lane as usize].iter().filter(leads_there).map(|exit| exit.0);
         let first = ways.clone().next()?;
         let open = ways.filter(|way| self.may_use(self.ways[*way as usize].to, kind));
-        // Of several lanes there, the one from which the leg after that is reached.
+        // Of several lanes there, the one from which the leg after that is reached, or from which one can drive on at all.
         let leads_on = |way: &u32| {
-            let exits = &self.exits[self.ways[*way as usize].to as usize];
-            after.is_none_or(|after| exits.iter().any(|exit| exit.1 == after))
+            let lane = self.ways[*way as usize].to as usize;
+            after.map_or(self.leads_on[lane], |after| self.exits[lane].iter().any(|exit| exit.1 == after))
         };
         Some(open.clone().find(leads_on).or_else(|| open.clone().next()).unwrap_or(first))
     }
@@ -223,15 +223,21 @@ impl Tracks {
         weights: &mut Vec<f64>,
     ) -> &[ConnectionId] {
         let ways = &self.network.lanes[lane as usize].outgoing;
-        let leads_on = |way: &ConnectionId| self.leads_on[self.lane_after(way.index()) as usize];
-        let any = ways.iter().any(leads_on);
-        weights.clear();
-        weights.extend(ways.iter().map(|way| {
+        // Better to turn round before who comes than to go where one stands for good.
+        let worth = |way: &ConnectionId| {
             let after = self.lane_after(way.index());
-            let is_open =
-                self.may_use(after, kind) && !self.is_trap(after, length) && (!any || leads_on(way));
-            if is_open { self.weight(way.index(), turns) } else { 0.0 }
-        }));
+            match (self.may_use(after, kind), self.leads_on[after as usize], self.is_trap(after, length)) {
+                (false, ..) => 0,
+                (_, false, _) => 1,
+                (.., true) => 2,
+                _ => 3,
+            }
+        };
+        let best = ways.iter().map(worth).max().unwrap_or(0).max(1);
+        weights.clear();
+        weights.extend(
+            ways.iter().map(|way| if worth(way) == best { self.weight(way.index(), turns) } else { 0.0 }),
+        );
         ways
     }
 
