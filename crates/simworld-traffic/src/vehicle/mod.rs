@@ -25,6 +25,7 @@ mod manager;
 mod mobil;
 mod otherwise;
 mod part;
+mod passing;
 mod patience;
 mod perception;
 mod precedence;
