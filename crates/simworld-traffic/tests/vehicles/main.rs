@@ -19,6 +19,7 @@ mod houses_on_lanes;
 mod kerb_to_kerb;
 mod locks_are_undone;
 mod near_junctions_are_passed;
+mod obstacles_are_passed;
 mod sirens_are_heard;
 mod watching;
 mod weather_slows_traffic;

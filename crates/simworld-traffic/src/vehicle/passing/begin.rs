@@ -132,14 +132,11 @@ impl VehicleManager {
         }
         let is_part = |other: &Vehicle| other.s <= barrier.far + SAME && self.is_in_the_way(other);
         let before = ahead.iter().rev().find(|other| !is_part(other));
-        let out = before.and_then(|before| Some((before, self.passings.of(before.id)?)));
+        let out = before.and_then(|before| Some((before, self.passes(before, barrier.far)?)));
         match (before, out) {
             (_, Some((before, pass))) => {
-                let goes_with = (pass.far - barrier.far).abs() < SAME
-                    && before.v > STANDING
-                    && pass.is_clear(before)
-                    && pass.number + 1 < PLATOON;
-                goes_with.then_some((pass.number + 1, pass.yields))
+                let goes_on = before.v > STANDING && pass.is_clear(before);
+                (goes_on && pass.number + 1 < PLATOON).then_some((pass.number + 1, pass.yields))
             }
             // Somebody stands between, or has not quite come out from where something was put.
             (Some(before), None) if before.s - before.length() < barrier.far => None,
@@ -147,8 +144,9 @@ impl VehicleManager {
         }
     }
 
-    fn passes(&self, vehicle: &Vehicle) -> bool {
-        self.passings.of(vehicle.id).is_some()
+    /// How a vehicle passes what ends at a station, if it does.
+    fn passes(&self, vehicle: &Vehicle, far: f64) -> Option<&Pass> {
+        self.passings.of(vehicle.id).filter(|pass| (pass.far - far).abs() < SAME)
     }
 
     /// Whether there is room to turn in again, also behind those who are out before one.
@@ -156,7 +154,7 @@ impl VehicleManager {
         let gap = |vehicle: &Vehicle| mind.config.vehicle_type(vehicle.row).driver.gap;
         let mut room = pass.back + gap(vehicle);
         for other in ahead.iter().rev() {
-            if self.passes(other) {
+            if self.passes(other, pass.far).is_some() {
                 room += other.length() + gap(other);
             } else if other.s > pass.far + SAME {
                 return other.s - other.length() >= room;
