@@ -193,7 +193,7 @@ impl Pass {
         there.map(|body| own(body.far) - vehicle.s).filter(|gap| *gap >= 0.0).min_by(f64::total_cmp)
     }
 
-    /// Where a vehicle is beside its lane after a step, m: towards the way past, or back. With the next place 0 it is done.
+    /// How far beside the middle of its lane a vehicle is after a step of `dt` s, m: nearer to the way past, or to the middle.
     fn moved(&self, vehicle: &Vehicle, stays_out: bool, dt: f64) -> f64 {
         let (now, wanted) = (f64::from(vehicle.shift.abs()), if stays_out { self.aside.abs() } else { 0.0 });
         let step = aside(vehicle.v) * dt;
