@@ -30,6 +30,8 @@ const BEFORE: f64 = 1.0;
 const OUT_OF_JUNCTION: f64 = 1.0;
 /// One goes so far aside at least, m.
 const LEAST_ASIDE: f64 = 0.3;
+/// And so far beyond the middle of the oncoming lane at most, m: bodies beside that leave this much room.
+const BEYOND: f64 = 0.2;
 /// What takes longer is not begun, s.
 const LONGEST: f64 = 60.0;
 /// Time between two looks at how it would go, s.
@@ -268,7 +270,9 @@ fn course(
     let half_width = mind.config.vehicle_type(vehicle.row).width * 0.5;
     let reach = if lateral > 0.0 { reach.1 } else { -reach.0 };
     let away = (reach + half_width + TO_SIDE).max(LEAST_ASIDE);
-    if away > lateral.abs() || far + room_behind(vehicle.length(), away) > tracks.length[lane as usize] {
+    if away > lateral.abs() + BEYOND
+        || far + room_behind(vehicle.length(), away) > tracks.length[lane as usize]
+    {
         return None;
     }
     let back = far + BEHIND + vehicle.length() + away / STEEPNESS + SPARE;
