@@ -30,7 +30,9 @@ fn streets() -> (Simulation, Point2) {
     let place = Point2::new((place.x * 10.0).round() / 10.0, (place.y * 10.0).round() / 10.0);
     let mut world = World::new();
     world.set_roads(network);
-    let config = TrafficConfig { vehicles: 40, pedestrians: 0, ..TrafficConfig::default() };
+    // What is asked is who stops for what is put there, not who gets round it.
+    let config =
+        TrafficConfig { vehicles: 40, pedestrians: 0, pass_obstacles: false, ..TrafficConfig::default() };
     let traffic = TrafficDynamics::new(&mut world, &config, Seed(1)).expect("sound settings");
     let mut simulation = Simulation::new(world);
     simulation.add_dynamics("traffic", Box::new(traffic));

@@ -28,6 +28,9 @@ pub struct TrafficConfig {
     pub conditions: DrivingConditions,
     /// What drivers do whose way is closed and who find no other.
     pub no_way: NoWay,
+    /// Whether drivers pass what stands on their lane over the oncoming one, on streets of one lane each way; without it they wait until
+    /// it is gone.
+    pub pass_obstacles: bool,
     /// Lateral acceleration at which drivers take turns, m/s², in [0.5, 6].
     pub lateral_acceleration: f64,
     /// Weights of going straight, right and left at an intersection, each in [0, 1000], one of them positive.
@@ -54,6 +57,7 @@ impl Default for TrafficConfig {
             gaps: Gaps::default(),
             conditions: DrivingConditions::default(),
             no_way: NoWay::default(),
+            pass_obstacles: true,
             lateral_acceleration: 2.5,
             turns: [0.6, 0.2, 0.2],
             walking: AnticipationVelocity::default(),

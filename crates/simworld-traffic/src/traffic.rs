@@ -337,6 +337,8 @@ impl Traffic {
         let streams = self.streams.named("vehicles");
         vehicles.mind_closures(&self.tracks, &self.driving, streams, *seconds, counters);
         demand.step(vehicles, &self.tracks, &self.driving, self.streams, *seconds, counters);
+        let at = vehicle::Moment { now: *seconds, dt, step: *steps };
+        vehicles.pass_obstacles(&self.tracks, &self.driving, &mut self.obstacles, at, counters);
         let sight = vehicle::Sight {
             aspects: &self.signals.aspects,
             shown,
@@ -344,7 +346,6 @@ impl Traffic {
             waiting: &pedestrians.waiting,
             obstacles: &self.obstacles,
         };
-        let at = vehicle::Moment { now: *seconds, dt, step: *steps };
         vehicles.step(&self.tracks, &self.driving, streams, sight, at, counters, &*self.workers);
     }
 

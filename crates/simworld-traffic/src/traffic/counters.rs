@@ -19,6 +19,8 @@ pub struct Counters {
     pub long_waits: u64,
     /// Lane changes.
     pub lane_changes: u64,
+    /// Times that a vehicle went out on the oncoming lane to pass what stood on its own.
+    pub obstacles_passed: u64,
     /// Vehicles that took another route because they could not get into the lane of theirs, or to undo a lock.
     pub rerouted: u64,
     /// Rings of full lanes, each waiting for the next, that were found and undone.
@@ -58,6 +60,7 @@ impl Counters {
             forced_stops,
             long_waits,
             lane_changes,
+            obstacles_passed,
             rerouted,
             locks,
             passes,
@@ -79,6 +82,7 @@ impl Counters {
         self.forced_stops += forced_stops;
         self.long_waits += long_waits;
         self.lane_changes += lane_changes;
+        self.obstacles_passed += obstacles_passed;
         self.rerouted += rerouted;
         self.locks += locks;
         self.passes += passes;

@@ -168,12 +168,17 @@ impl Finder {
                     let Some(near) = near.filter(|near| near.distance < SWEPT + reach) else { continue };
                     let (back, front) = (near.station - reach, near.station + reach);
                     let aside = near.distance - reach;
+                    let across = (near.lateral - reach, near.lateral + reach);
                     match obstacles[first..].iter_mut().find(|other| other.track == track) {
                         Some(own) => {
                             (own.near, own.far) = (own.near.min(back), own.far.max(front));
                             own.aside = own.aside.min(aside);
+                            own.reach = (own.reach.0.min(across.0), own.reach.1.max(across.1));
                         }
-                        None => obstacles.push(body.on(tracks, track, (back, front), aside)),
+                        None => {
+                            let found = body.on(tracks, track, (back, front), aside);
+                            obstacles.push(Obstacle { reach: across, ..found });
+                        }
                     }
                 }
             }
@@ -293,11 +298,12 @@ impl Foreign {
         [long + wide, long - wide, -long + wide, -long - wide].map(|offset| (self.position + offset, 0.0))
     }
 
-    /// It as an obstacle on a track.
+    /// It as an obstacle on a track, that reaches to neither side yet.
     fn on(&self, tracks: &Tracks, track: u32, (near, far): (f64, f64), aside: f64) -> Obstacle {
         let yaw = polyline::at(tracks.path(track), (near + far) * 0.5).1;
         let v = self.velocity.dot(&direction(yaw)).max(0.0);
-        Obstacle { track, near, far, aside, v, stands: self.velocity.norm() < STANDING }
+        let stands = self.velocity.norm() < STANDING;
+        Obstacle { track, near, far, aside, reach: (0.0, 0.0), v, stands }
     }
 }
 

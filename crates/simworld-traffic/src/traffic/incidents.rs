@@ -42,8 +42,9 @@ impl Traffic {
     }
 
     /// Makes a vehicle stop in its lane as soon as it can, for so many seconds, infinite for good: it broke down, or stands
-    /// there to load. Others pass it on the lane beside or wait behind it. In a junction, or with leave to cross one, it drives on
-    /// to the lane behind. False if there is no vehicle of that number.
+    /// there to load. Others pass it on the lane beside, or over the oncoming one where a street has one lane each way and
+    /// [`TrafficConfig::pass_obstacles`](crate::TrafficConfig::pass_obstacles) says so, or wait behind it. In a junction, or with
+    /// leave to cross one, it drives on to the lane behind. False if there is no vehicle of that number.
     ///
     /// # Errors
     /// A time that is negative or not a number.

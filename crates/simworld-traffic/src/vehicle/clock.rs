@@ -3,8 +3,8 @@
 //!
 //! Whatever happens at an intersection happens within one part, so that those who depend on one another are at one time. A part
 //! that waits receives who is handed over to it, and shows its lanes to parts that do not wait; they see it as it was, which is
-//! never farther ahead than it is. A part that has been far, and one in which somebody else drives, comes up to the present at
-//! once.
+//! never farther ahead than it is. A part that has been far, and one in which somebody else drives or passes what stands on a
+//! lane, comes up to the present at once.
 
 use serde::{Deserialize, Serialize};
 use simworld_core::id::IntersectionId;
@@ -163,9 +163,9 @@ impl VehicleManager {
     /// Decides who goes in a step.
     pub(super) fn begin_step(&mut self, tracks: &Tracks, at: &Moment) {
         let ends_round = at.ends_round();
-        let somebody_drives = !self.controls.driven.is_empty();
+        let some_go = !self.controls.driven.is_empty() || self.passings.lanes().next().is_some();
         for clock in self.parts.iter_mut().map(|part| &mut part.clock) {
-            clock.wait(at.dt, clock.range == Range::Border || somebody_drives);
+            clock.wait(at.dt, clock.range == Range::Border || some_go);
             if ends_round || !clock.is_far() {
                 clock.go(at.dt);
             }
@@ -175,6 +175,10 @@ impl VehicleManager {
             if track != NONE {
                 self.parts[tracks.layout.place(track).part as usize].clock.go(at.dt);
             }
+        }
+        // Who is out on the oncoming lane and those who come there are at one time.
+        for lane in self.passings.lanes() {
+            self.parts[tracks.layout.place(lane).part as usize].clock.go(at.dt);
         }
     }
 }

@@ -63,6 +63,17 @@ impl Controls {
         self.driven.is_empty()
     }
 
+    /// Whether somebody else drives a vehicle on its lane.
+    #[inline]
+    pub(super) fn drives(&self, id: u32) -> bool {
+        !self.is_empty() && self.driven.contains_key(&id)
+    }
+
+    /// The first from a number on that somebody else drives on its lane.
+    pub(super) fn next_driven(&self, from: u32) -> Option<u32> {
+        self.driven.range(from..).next().map(|(id, _)| *id)
+    }
+
     /// In which lane a vehicle is wanted; none if its own driver drives.
     #[inline]
     pub(super) fn lane_wish(&self, id: u32) -> Option<LaneWish> {

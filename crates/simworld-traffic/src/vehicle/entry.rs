@@ -70,6 +70,10 @@ impl VehicleManager {
             .filter(leads_on)
             .filter(|lane| self.junctions.inbound(*lane) <= 0.0 && tracks.length[*lane as usize] > length)
             .filter(|lane| !is_close(*lane) && !self.closures.has(*lane))
+            .filter(|lane| {
+                let limit = row.free_speed(config, departure.factor, tracks.speed[*lane as usize]);
+                self.passings.leave_room(*lane, length + limit * limit / (2.0 * idm.deceleration))
+            })
             .max_by(|a, b| {
                 let suits = |lane: Track| tracks.suits(lane, row.kind);
                 suits(*a).cmp(&suits(*b)).then(room(*a).total_cmp(&room(*b))).then(b.cmp(a))

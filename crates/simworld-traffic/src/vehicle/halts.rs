@@ -89,6 +89,25 @@ impl Halts {
         self.lists.range(from..).find(|(_, list)| parks(list)).map(|(id, _)| *id)
     }
 
+    /// Whether nobody has any.
+    pub(super) fn is_empty(&self) -> bool {
+        self.lists.is_empty()
+    }
+
+    /// Whether a vehicle stands, or is about to, because it was told to at once: it broke down, or is unloaded where it is. Who stands at
+    /// a stop or parks will go on, and is waited for.
+    pub(super) fn is_breakdown(&self, id: u32) -> bool {
+        self.lists.get(&id).and_then(VecDeque::front).is_some_and(|halt| halt.leg.is_none())
+    }
+
+    /// The first from a number on that stands so.
+    pub(super) fn next_breakdown(&self, from: u32) -> Option<u32> {
+        let stands = |list: &VecDeque<Halt>| {
+            list.front().is_some_and(|halt| halt.leg.is_none() && halt.since.is_some())
+        };
+        self.lists.range(from..).find(|(_, list)| stands(list)).map(|(id, _)| *id)
+    }
+
     pub(super) fn remove(&mut self, id: u32) {
         self.lists.remove(&id);
     }
@@ -135,8 +154,9 @@ impl VehicleManager {
     }
 
     /// Tells a vehicle where it halts on its lane, if it does. Who has leave to cross uses it before.
-    fn aim(&mut self, tracks: &Tracks, config: &TrafficConfig, id: u32) {
+    pub(super) fn aim(&mut self, tracks: &Tracks, config: &TrafficConfig, id: u32) {
         let Some((track, vehicle, _)) = self.find(tracks, id) else { return };
+        let passes = self.passings.of(id).is_some();
         let has_leave = vehicle.holding != NONE && vehicle.holding == vehicle.next;
         let halt = if tracks.connection(track).is_some() || has_leave {
             f32::INFINITY
@@ -146,7 +166,7 @@ impl VehicleManager {
         let (queue, _) = self.both_mut(tracks, track);
         if let Some(vehicle) = queue.iter_mut().find(|vehicle| vehicle.id == id) {
             vehicle.halt = halt;
-            if halt.is_infinite() && vehicle.shift != 0.0 && tracks.connection(track).is_none() {
+            if halt.is_infinite() && !passes && vehicle.shift != 0.0 && tracks.connection(track).is_none() {
                 // It had begun to park and does not after all.
                 self.move_in(tracks, track, id);
             }

@@ -97,6 +97,9 @@ impl VehicleManager {
     ) -> Result<(usize, f32), &'static str> {
         let (vehicle, driver) = (&free.vehicle, &config.vehicle_type(free.vehicle.row).driver);
         let (v, s, rear) = (free.speed(), place.front, place.front - vehicle.length());
+        if self.passings.touches(place.lane) {
+            return Err("somebody passes there what stands on a lane: wait until they are by");
+        }
         let queue = self.queue(tracks, place.lane);
         let rank = queue.partition_point(|other| other.s >= s);
         let stopping = |speed: f64, braking: f64| speed * speed / (2.0 * braking);

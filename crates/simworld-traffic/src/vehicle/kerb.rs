@@ -80,7 +80,7 @@ impl VehicleManager {
         let Some(rank) = self.gap_at(tracks, config, lane, (rear, s + row.driver.gap), inbound) else {
             return false;
         };
-        if is_blocked {
+        if is_blocked || self.passings.touches(lane) {
             return false;
         }
         let place = Place { lane, s, v: 0.0, rank, shift: tracks.kerb[lane as usize] };
@@ -148,6 +148,9 @@ impl VehicleManager {
 
     fn pull_one_in(&mut self, tracks: &Tracks, id: u32, dt: f64) {
         let Some((track, vehicle, _)) = self.find(tracks, id) else { return };
+        if self.passings.of(id).is_some() {
+            return; // first it comes back into its lane
+        }
         let Some(target) = tracks.kerb.get(track as usize).copied().filter(|target| *target != 0.0) else {
             return;
         };

@@ -1,7 +1,7 @@
 //! Lanes side by side: which lie beside which, who may drive on them, and where one would rather be.
 
 use simworld_core::id::LaneId;
-use simworld_core::net::{Road, RoadNetwork, polyline};
+use simworld_core::net::{LaneKind, Road, RoadNetwork, polyline};
 
 use super::VehicleKind;
 use super::manager::NONE;
@@ -23,6 +23,24 @@ pub(super) fn beside(network: &RoadNetwork) -> Vec<[Track; 2]> {
         }
     }
     beside
+}
+
+/// The lane of those who come the other way, on streets of one lane each way for everybody, or [`NONE`]: there one gets round what
+/// stands on the own lane over it. A median keeps the two apart.
+pub(super) fn opposite(network: &RoadNetwork) -> Vec<Track> {
+    let mut opposite = vec![NONE; network.lanes.len()];
+    for road in &network.roads {
+        let ([forward], [backward]) = (&road.forward[..], &road.backward[..]) else { continue };
+        let (one, other) = (&network.lanes[forward.index()], &network.lanes[backward.index()]);
+        let middle = polyline::at(&other.path, other.length * 0.5).0;
+        let near = polyline::closest(&one.path, &middle);
+        let touch = near.is_some_and(|near| near.distance < (one.width + other.width) * 0.5 + 0.5);
+        if touch && one.kind == LaneKind::Driving && other.kind == LaneKind::Driving {
+            opposite[forward.index()] = backward.0;
+            opposite[backward.index()] = forward.0;
+        }
+    }
+    opposite
 }
 
 /// The pairs of lanes of a road that may lie side by side and lead the same way.

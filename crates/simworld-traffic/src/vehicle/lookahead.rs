@@ -1,5 +1,7 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
+mod passing;
+
 use super::Idm;
 use super::following::{Ahead, Leader};
 use super::ghosts::{Ghost, first_block, first_ghost};
@@ -57,10 +59,12 @@ pub(super) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], accelerations: &
 #[inline]
 pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) -> f64 {
     let mut view = View::new(lane, vehicle);
+    let pass = lane.scene.passings.of(vehicle.id);
+    let leader = pass.map_or(leader, |pass| lane.leader_beyond(vehicle, pass));
     if let Some(leader) = leader {
         view.mind_leader(lane, vehicle, leader);
     }
-    if vehicle.halt.is_finite() {
+    if vehicle.halt.is_finite() && pass.is_none() {
         view.halt(lane, vehicle);
     }
     let to_end = lane.end - vehicle.s;
@@ -71,7 +75,10 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         }
         None => view.enter_junction(lane, vehicle, to_end, leader.is_none()),
     }
-    view.mind_bodies(lane, vehicle);
+    match pass {
+        Some(pass) => view.pass(lane, vehicle, pass),
+        None => view.mind_bodies(lane, vehicle),
+    }
     view.respond(lane, vehicle)
 }
 
@@ -153,6 +160,9 @@ impl View<'_> {
             let idm_gap = self.idm.gap;
             self.stop_in(self.before_change(lane, vehicle, gap - idm_gap), idm_gap);
         }
+        if leader.halt.is_finite() {
+            self.mind_breakdown(lane, vehicle, leader);
+        }
     }
 
     /// Stops where it is to halt, or far enough before that it can still come to the kerb.
@@ -175,7 +185,11 @@ impl View<'_> {
                 // Early enough that one can still pass on the lane beside.
                 let idm_gap = self.idm.gap;
                 self.stop_in(self.before_change(lane, vehicle, gap - idm_gap), idm_gap);
+                self.mind_block(lane, vehicle);
             }
+        }
+        if !lane.scene.passings.is_empty() {
+            self.mind_passings(lane, vehicle);
         }
         if vehicle.shift != 0.0
             && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene, lane.track, vehicle)

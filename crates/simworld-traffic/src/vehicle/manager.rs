@@ -8,7 +8,7 @@
 //! 3. *Settle*: those handed over join their lanes, junctions that were cleared become free, claims on crossings are counted.
 //!
 //! A part writes its own vehicles only. Of other parts it sees what they show, and the sums in [`Junctions`], which nobody reads
-//! in the phase in which others add to them. The result is the same on any number of threads. Parts far from all interest go in
+//! in the phase in which others add to them. Who goes out on the oncoming lane is decided [before](super::passing). The result is the same on any number of threads. Parts far from all interest go in
 //! one step of several ([`Clock`](super::clock::Clock)).
 
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,7 @@ use super::entry::route_way;
 use super::halts::Halts;
 use super::junction::Junctions;
 use super::part::{Part, Tail, Transfer};
+use super::passing::Passings;
 use super::reroute::Rounds;
 use super::sirens::Sirens;
 use super::slabs::Slabs;
@@ -158,6 +159,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) hasty: &'a TrafficConfig,
     /// Where drivers hear a siren.
     pub(crate) sirens: &'a Sirens,
+    /// Who passes what stands on a lane.
+    pub(crate) passings: &'a Passings,
     /// Who was handed over, by the part that they left and the part that they enter.
     pub(crate) handed: &'a [Vec<Vec<Transfer>>],
 }
@@ -232,6 +235,8 @@ pub(crate) struct VehicleManager {
     pub(super) rounds: Rounds,
     /// Who has a siren on.
     pub(crate) sirens: Sirens,
+    /// Who passes what stands on a lane.
+    pub(super) passings: Passings,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
     /// Numbers of those who entered in the last step, and the trips that ended in it.
@@ -307,6 +312,7 @@ impl VehicleManager {
             controls: &self.controls,
             hasty: self.hasty.as_ref().unwrap_or(config),
             sirens: &self.sirens,
+            passings: &self.passings,
             handed: &self.handed,
         }
     }

@@ -26,6 +26,7 @@ mod mobil;
 mod onward;
 mod otherwise;
 mod part;
+mod passing;
 mod patience;
 mod perception;
 mod precedence;

@@ -34,6 +34,7 @@ impl VehicleManager {
             )
             && self.rounds.fits(tracks, count)
             && self.sirens.fits(count)
+            && self.passings.fits(tracks, count)
             && self.free.iter().all(|id| (*id as usize) < count)
             && self.iter(tracks).all(|(track, v, path)| {
                 (v.id as usize) < count
@@ -64,5 +65,6 @@ impl VehicleManager {
         waiting.for_each(|(number, part)| _ = hasher.u64(number as u64).f64(part.clock.waited()));
         self.controls.state_hash(hasher);
         self.rounds.state_hash(hasher);
+        self.passings.state_hash(hasher);
     }
 }

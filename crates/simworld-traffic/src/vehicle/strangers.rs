@@ -89,7 +89,12 @@ pub(super) fn let_in(
 
 /// Those on a track.
 pub(super) fn on_track<'a>(sight: &Sight<'a>, track: Track) -> &'a [Obstacle] {
-    let from = sight.obstacles.partition_point(|body| body.track < track);
-    let count = sight.obstacles[from..].partition_point(|body| body.track == track);
-    &sight.obstacles[from..from + count]
+    of_track(sight.obstacles, track)
+}
+
+/// Those of a sorted list that are on a track.
+pub(super) fn of_track(obstacles: &[Obstacle], track: Track) -> &[Obstacle] {
+    let from = obstacles.partition_point(|body| body.track < track);
+    let count = obstacles[from..].partition_point(|body| body.track == track);
+    &obstacles[from..from + count]
 }

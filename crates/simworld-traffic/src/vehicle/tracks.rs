@@ -40,6 +40,8 @@ pub(crate) struct Obstacle {
     pub(crate) far: f64,
     /// How far beside the middle of the track it begins, m; not above zero where it covers it.
     pub(crate) aside: f64,
+    /// How far it reaches to the right and to the left of the middle of the track: its least and its greatest place to the left, m.
+    pub(crate) reach: (f64, f64),
     /// How fast it goes along the track, m/s, zero if it stands or comes towards one.
     pub(crate) v: f64,
     /// Whether it stands.
@@ -92,6 +94,8 @@ pub(crate) struct Tracks {
     pub(crate) narrow: Ragged<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
+    /// The lane beside each lane on which the others come, on streets of one lane each way, or [`NONE`].
+    pub(super) opposite: Vec<Track>,
     /// What each lane is for.
     pub(super) kinds: Vec<LaneKind>,
     /// Whether one can drive on from each lane without end.
@@ -137,6 +141,7 @@ impl Tracks {
             strips: connections.map(|index| strips(&network, index)).collect(),
             kerb: kerb::places(&network, &beside),
             beside,
+            opposite: lanes::opposite(&network),
             kinds: network.lanes.iter().map(|lane| lane.kind).collect(),
             leads_on: onward::lead_on(&network),
             outermost: lanes::outermost(&network),

@@ -13,6 +13,7 @@ mod lent_threads;
 mod orders_are_replayed;
 mod others_take_over;
 mod outputs_add_up;
+mod passing_is_the_same_every_time;
 mod pictures_tell_the_truth;
 mod same_bits_every_time;
 mod signals_keep_their_word;

@@ -26,8 +26,9 @@ fn grid(size: usize, lanes: u8) -> Arc<RoadNetwork> {
     Arc::new(RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network"))
 }
 
+/// Everybody waits behind who is stopped, also where they could get round.
 fn traffic(lanes: u8, vehicles: u32, pedestrians: u32) -> Traffic {
-    let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
+    let config = TrafficConfig { vehicles, pedestrians, pass_obstacles: false, ..TrafficConfig::default() };
     Traffic::new(grid(3, lanes), &config, Seed(21)).expect("the settings are in range")
 }
 

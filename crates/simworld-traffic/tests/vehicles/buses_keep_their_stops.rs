@@ -101,7 +101,8 @@ fn nobody_leaves_before_the_timetable_says() {
 #[test]
 fn a_breakdown_is_passed_or_waited_for() {
     for lanes in [1, 2] {
-        let mut traffic = Traffic::new(crossroads(lanes), &empty(), Seed(1)).unwrap();
+        let config = TrafficConfig { pass_obstacles: false, ..empty() };
+        let mut traffic = Traffic::new(crossroads(lanes), &config, Seed(1)).unwrap();
         let route = Route(across().to_vec());
         traffic.add_flow(Flow { until: 300.0, ..Flow::new(route, 400.0) }).unwrap();
         while traffic.stations().next().is_none_or(|at| at.2 < 60.0) {

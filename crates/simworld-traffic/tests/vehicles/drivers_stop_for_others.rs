@@ -38,7 +38,8 @@ fn drivers_stop_behind_a_body_on_their_lane() {
 
 #[test]
 fn nobody_starts_into_a_body_that_swings_round_before_it() {
-    let config = TrafficConfig { vehicles: 40, pedestrians: 0, ..TrafficConfig::default() };
+    let config =
+        TrafficConfig { vehicles: 40, pedestrians: 0, pass_obstacles: false, ..TrafficConfig::default() };
     let plan = StreetPlan::grid(3, 3, 120.0);
     let network = Arc::new(RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap());
     let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(1)).unwrap();
@@ -87,7 +88,14 @@ fn nobody_starts_into_a_body_that_swings_round_before_it() {
 fn the_broad_stop_where_the_narrow_have_room() {
     for (width, passes) in [(1.8, true), (2.5, false)] {
         let types = vec![VehicleType { width, ..VehicleType::default() }];
-        let config = TrafficConfig { vehicles: 40, pedestrians: 0, types, ..TrafficConfig::default() };
+        // Over the oncoming lane both would pass.
+        let config = TrafficConfig {
+            vehicles: 40,
+            pedestrians: 0,
+            types,
+            pass_obstacles: false,
+            ..TrafficConfig::default()
+        };
         let network = Arc::new(
             RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default())
                 .expect("a grid is a network"),

@@ -55,7 +55,9 @@ impl Streets {
         for thing in things {
             world.spawn(thing.clone()).unwrap();
         }
-        let config = TrafficConfig { vehicles: 40, pedestrians: 0, ..TrafficConfig::default() };
+        // What is asked is who stops for it, not who gets round it.
+        let config =
+            TrafficConfig { vehicles: 40, pedestrians: 0, pass_obstacles: false, ..TrafficConfig::default() };
         let traffic = TrafficDynamics::new(&mut world, &config, Seed(1)).expect("sound settings");
         Self { world, traffic }
     }

@@ -20,6 +20,7 @@ mod kerb_to_kerb;
 mod locks_are_undone;
 mod near_junctions_are_passed;
 mod nobody_leaves_the_map;
+mod obstacles_are_passed;
 mod sirens_are_heard;
 mod watching;
 mod weather_slows_traffic;
