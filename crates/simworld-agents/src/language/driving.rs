@@ -194,6 +194,9 @@ impl Parser<'_> {
         let pace = self.pace(Pace::Usual)?;
         if self.eat_any(TO) {
             let to = self.reference(0)?;
+            if let Some(what) = self.mount()? {
+                return Ok(vec![Clause::Board { what, to: Some(to) }]);
+            }
             let pace = self.pace(pace)?;
             return self.after_place(Clause::Drive { to, pace }, pace);
         }

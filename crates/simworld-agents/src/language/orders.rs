@@ -143,6 +143,12 @@ impl Parser<'_> {
         let Some(verb) = last.filter(|verb| has_objects(*verb)) else { return Err(refused) };
         let is_phrase = moves || longest_phrase(self.rest(), BEGINNINGS).is_some();
         let start = self.at;
+        // "..., it's chilly in there, then say thanks" tells, and is nothing to say.
+        const STATES: &[&str] =
+            &["its", "it is", "theres", "there is", "thats", "that is", "hes", "shes", "im", "theyre"];
+        if matches!(verb, Verb::Say | Verb::Tell) && longest_phrase(self.rest(), STATES).is_some() {
+            return Err(refused);
+        }
         if verb == Verb::Sit && longest_phrase(self.rest(), &["on", "in", "at"]).is_none() {
             return Err(refused);
         }

@@ -137,19 +137,24 @@ impl Parser<'_> {
     pub(super) fn board(&mut self) -> Result<Vec<Clause>, PlanError> {
         let what = if self.ends_clause() {
             Reference::to(Target::It, "it".to_owned())
-        } else if self.eat_any(&["to"]) {
+        } else if self.eat_any(&["to", "over to", "across to", "up to", "down to", "back to", "along to"]) {
             // "Ride to the school": on what one is on.
-            return Ok(vec![Clause::Go {
-                to: self.reference(0)?,
-                side: None,
-                pace: Pace::Usual,
-                within: None,
+            let to = self.reference(0)?;
+            return Ok(vec![match self.mount()? {
+                Some(what) => Clause::Board { what, to: Some(to) },
+                None => Clause::Go { to, side: None, pace: Pace::Usual, within: None },
             }]);
         } else {
             self.reference(0)?
         };
         self.eat_any(&["over", "up", "down", "across", "back"]);
         Ok(vec![Clause::Board { what, to: self.tail_place(BRINGS)? }])
+    }
+
+    /// "Ride to Emil on the scooter": what one is to ride there.
+    pub(super) fn mount(&mut self) -> Result<Option<Reference>, PlanError> {
+        let said = self.eat_any(&["on", "in", "with", "using", "aboard"]);
+        if said { self.reference(0).map(Some) } else { Ok(None) }
     }
 
     fn alight(&mut self) -> Clause {

@@ -256,6 +256,9 @@ fn replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
     if is_choice(right) {
         return choice_replaced(wrong, right);
     }
+    if let Some(mended) = direction_replaced(wrong, right) {
+        return Some(mended);
+    }
     if let Some(words) = direction(right).filter(|words| *words == right.len()) {
         let at = (0..wrong.len()).rfind(|at| direction(&wrong[*at..]).is_some())?;
         let behind = at + direction(&wrong[at..]).unwrap_or(0);
@@ -267,6 +270,15 @@ fn replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
         return Some([&wrong[..at], &right[..words], &wrong[behind..]].concat());
     }
     number_replaced(wrong, right).or_else(|| name_replaced(wrong, right))
+}
+
+/// "The chair west, no, east of the campfire": the thing it is told from stands behind what is right alone.
+fn direction_replaced(wrong: &[Lexeme], right: &[Lexeme]) -> Option<Vec<Lexeme>> {
+    let words = direction(right)?;
+    let is_from = right.get(words).is_some_and(|of| word_of(of) == "of");
+    let ends_with = |at: &usize| direction(&wrong[*at..]).is_some_and(|words| at + words == wrong.len());
+    let at = (1..wrong.len()).find(ends_with).filter(|_| is_from)?;
+    Some([&wrong[..at], right].concat())
 }
 
 /// "Left", "north": in how many words.

@@ -42,11 +42,6 @@ const LASTLY: &Turns = &[
     ("O push|move|pull|shift|set|nudge|slide|scoot|shove back N by|- M", "O move N M back"),
     ("O push|move|pull|shift|bring|nudge|slide|scoot|shove N forward|forwards by|- M", "O move N M forward"),
     ("O push|move|pull|shift|bring|nudge|slide|scoot|shove forward|forwards N by|- M", "O move N M forward"),
-    // Sizes. A head is the eighth part of somebody of 1.75 m.
-    ("O make N a|one head taller|bigger|higher", "O make N twenty two centimetres taller"),
-    ("O make it a|one head taller|bigger|higher", "O make it twenty two centimetres taller"),
-    ("O make N a|one head shorter|smaller|lower", "O make N twenty two centimetres shorter"),
-    ("O make it a|one head shorter|smaller|lower", "O make it twenty two centimetres shorter"),
     ("O blow|scale|size|bump N up F", "O make N F"),
     ("O blow|scale|size|bump up N F", "O make N F"),
     ("O blow|scale|size|bump N up to twice|double", "O make N twice as big"),

@@ -400,6 +400,11 @@ pub(super) const TURNS: &[(&str, &str)] = &[
 /// As [`TURNS`], of what would be misunderstood otherwise.
 #[rustfmt::skip]
 pub(super) const BEFORE_ALL: &[(&str, &str)] = &[
+    // A head is the eighth part of somebody of 1.75 m.
+    ("O make N a|one head taller|bigger|higher", "O make N twenty two centimetres taller"),
+    ("O make it a|one head taller|bigger|higher", "O make it twenty two centimetres taller"),
+    ("O make N a|one head shorter|smaller|lower", "O make N twenty two centimetres shorter"),
+    ("O make it a|one head shorter|smaller|lower", "O make it twenty two centimetres shorter"),
     ("O make|create|produce D copies of A and place|put|set|stand|park|leave|position them|both B", "O make D copies of A B"),
     ("O make|create|produce a|one copy of A and place|put|set|stand|park|leave|position it B", "O make a copy of A B"),
     ("O land D A W", "O put D A W"),

@@ -41,7 +41,7 @@ impl VehicleManager {
     ) -> Option<Barrier> {
         let half_width = mind.config.vehicle_type(vehicle.row).width * 0.5;
         let front = vehicle.s;
-        let beyond = || self.standing(mind, lane, half_width).filter(move |part| part.near > front);
+        let beyond = || self.bars_of(mind, lane, half_width).filter(move |part| part.near > front);
         let mut barrier = beyond().min_by(|a, b| a.near.total_cmp(&b.near))?;
         let room = room_behind(vehicle.length(), apart) - JUNCTION;
         loop {
@@ -56,7 +56,7 @@ impl VehicleManager {
     }
 
     /// All that stands on a lane and leaves no room for a vehicle of half that width, m.
-    fn standing(&self, mind: &Mind<'_>, lane: Track, half_width: f64) -> impl Iterator<Item = Barrier> {
+    fn bars_of(&self, mind: &Mind<'_>, lane: Track, half_width: f64) -> impl Iterator<Item = Barrier> {
         let bodies = of_track(mind.obstacles, lane).iter();
         let bars = move |body: &&Obstacle| body.stands && body.bars(half_width);
         let bodies = bodies.filter(bars).map(|body| {

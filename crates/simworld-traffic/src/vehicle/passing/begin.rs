@@ -95,7 +95,7 @@ impl VehicleManager {
         }
         let apart = mind.tracks.apart(lane, opposite);
         let Some(barrier) = self.barrier(mind, lane, &vehicle, apart) else { return false };
-        let Some((number, yields)) = self.turn(ahead, &vehicle, &barrier) else { return false };
+        let Some((number, yields)) = self.let_out(ahead, &vehicle, &barrier) else { return false };
         let Some(pass) = course(mind, (lane, opposite), &vehicle, &barrier) else { return false };
         if !self.is_landing_free(mind, ahead, &vehicle, &pass) {
             return false;
@@ -128,7 +128,7 @@ impl VehicleManager {
 
     /// Whether it is one's turn: as the first behind what stands, after the wait, or right behind one who is out and moves. How many go
     /// before one then, and who lets them.
-    fn turn(&self, ahead: &[Vehicle], vehicle: &Vehicle, barrier: &Barrier) -> Option<(u32, u32)> {
+    fn let_out(&self, ahead: &[Vehicle], vehicle: &Vehicle, barrier: &Barrier) -> Option<(u32, u32)> {
         if barrier.near - vehicle.s > WAITS_FOR_IT {
             return None;
         }
