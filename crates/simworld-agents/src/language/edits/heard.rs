@@ -14,8 +14,8 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt,
-    retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
+    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs,
+    respelt, retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -177,6 +177,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    margins::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);

@@ -38,6 +38,7 @@ mod lastly;
 mod likened;
 mod loose;
 mod make;
+mod margins;
 mod measures;
 mod memo;
 mod mistaken;
