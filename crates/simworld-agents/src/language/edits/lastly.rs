@@ -153,9 +153,14 @@ pub(super) fn ways(
     let is_told = !is_same(&told, placed.as_deref().unwrap_or(&plain));
     // What reads like a wish and asks for nothing, and assets whose words are misspelt.
     let named = misspelt::in_plain_spelling(heard, stock);
-    let beside = said_beside::without(named.as_deref().unwrap_or(&plain));
+    let beside =
+        said_beside::without(named.as_deref().unwrap_or(&plain)).or_else(|| said_beside::without(heard));
+    // A word of these turns that nobody else says may have been taken for a slip: "wanting".
+    let unspelt = told_by(heard, &[LASTLY]);
+    let is_unspelt = !is_same(&unspelt, heard);
     let rest = beside.as_deref().or(named.as_deref()).map(|rest| told_by(rest, &[LASTLY]));
     let ways = sounded.into_iter().chain(placed).chain(is_told.then_some(told));
+    let ways = ways.chain(is_unspelt.then_some(unspelt));
     ways.chain(beside).chain(named).chain(rest).collect()
 }
 

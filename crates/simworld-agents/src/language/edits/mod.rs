@@ -386,6 +386,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(casual::words())
         .chain(wording::words())
         .chain(topics::words())
+        .chain(originals::words())
+        .chain(texts::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

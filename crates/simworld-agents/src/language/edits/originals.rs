@@ -53,3 +53,8 @@ impl Reader<'_> {
         })
     }
 }
+
+/// Every word of the table, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    ORIGINAL.iter().flat_map(|phrase| phrase.split(' '))
+}

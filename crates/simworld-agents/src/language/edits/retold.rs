@@ -221,7 +221,6 @@ impl Reader<'_> {
             && longest_phrase(clause, super::told::ORDERS_ANYTHING).is_none()
             && (any(IS) || tells())
             && !any(CHANGES)
-            // How much room is left says where.
             && !super::margins::tells_room(clause)
             && !paints
             && !may_be_about

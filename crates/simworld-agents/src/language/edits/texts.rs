@@ -44,3 +44,8 @@ impl Reader<'_> {
             })
     }
 }
+
+/// Words of these tables that are near others, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    VERBS.iter().chain(LANGUAGES).copied().chain(["paragraph", "paragraphs"])
+}
