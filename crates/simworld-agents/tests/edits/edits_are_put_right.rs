@@ -365,9 +365,7 @@ fn what_is_asked_of_texts_is_not_understood() {
         "Summarise this article.",
     ] {
         let answer = edits_of(&city, words).unwrap_err();
-        let plain = edits_of(&city, "Colourless ideas sleep furiously.").unwrap_err();
-        let first = |answer: &str| answer.split(' ').take(2).collect::<Vec<_>>().join(" ");
-        assert_eq!(first(&answer), first(&plain), "{words}: {answer}");
+        assert!(answer.starts_with("cannot understand"), "{words}: {answer}");
     }
     // To translate a thing is to move it.
     mean("quarter", "move the statue two metres north", &["translate the statue two metres north"]);

@@ -4,6 +4,7 @@
 
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::resolve::Finder;
@@ -40,7 +41,9 @@ impl Reader<'_> {
             return None;
         }
         // "The original bench".
-        let noun = self.lexemes.get(next..).and_then(category).filter(|_| words == 2);
+        let rest = self.lexemes.get(next..).unwrap_or_default();
+        // Green is a colour before it is a place.
+        let noun = category(rest).filter(|_| words == 2 && longest(rest, PAINTS).is_none());
         Some(words + noun.map_or(0, |(_, words)| words))
     }
 
