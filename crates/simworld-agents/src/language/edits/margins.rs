@@ -43,8 +43,11 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     };
     let place = lexemes[from].clone();
     let length = lexemes[start..stop].to_vec();
-    let plain: Vec<Lexeme> =
-        words_at(&place, "with a gap of").chain(length).chain([word_at(&place, "to")]).collect();
+    // "At least two metres" are two or more.
+    let is_least = longest_phrase(&length, &["at least"]).is_some();
+    let (before, behind) = if is_least { (None, "from") } else { (Some("with a gap of"), "to") };
+    let before = before.into_iter().flat_map(|said| words_at(&place, said));
+    let plain: Vec<Lexeme> = before.chain(length).chain([word_at(&place, behind)]).collect();
     let is_led = lexemes[from - 1].token == Token::Comma;
     lexemes.splice(from - usize::from(is_led)..end, plain);
 }
@@ -104,6 +107,10 @@ mod tests {
             (
                 "put a bin with 2 metres of clearance to the kiosk",
                 "put a bin with a gap of 2 metres to the kiosk",
+            ),
+            (
+                "put a bin so that at least 2 m stay free between it and the kiosk",
+                "put a bin at least 2 m from the kiosk",
             ),
             (
                 "put a bin so that there is 1 metre of space between the bin and the oak",
