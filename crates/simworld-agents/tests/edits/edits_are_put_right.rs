@@ -226,3 +226,208 @@ fn what_is_told_is_no_proposal() {
         assert!(!edits_of(&city, words).is_ok_and(|edits| moves(&edits)), "{words}");
     }
 }
+
+#[test]
+fn room_that_is_left_is_a_gap() {
+    mean(
+        "campus",
+        "put a planter with a gap of 80 cm to the statue",
+        &[
+            "Set down a planter so that 80 cm stay free between it and the statue.",
+            "put a planter so that 80 cm remain clear between it and the statue",
+            "put a planter so that 80 cm are left between it and the statue",
+            "put a planter, leaving 80 cm between it and the statue",
+            "put a planter leaving 80 cm free between it and the statue",
+            "put a planter with 80 cm of space to the statue",
+            "put a planter with 80 cm of clearance to the statue",
+            "put a planter so that there is 80 cm of room between the planter and the statue",
+        ],
+    );
+    // A clause that says where and is not understood is never left out.
+    let city = City::read("campus");
+    for words in [
+        "put a planter so that 80 cm stay free between it and the wardrobe",
+        "put a planter so that 2 metres of lawn lie between it and the statue",
+    ] {
+        assert!(edits_of(&city, words).is_err(), "{words}");
+    }
+    // What only says why still is.
+    mean(
+        "campus",
+        "put a planter next to the statue",
+        &["put a planter next to the statue so that visitors see it"],
+    );
+}
+
+#[test]
+fn names_end_before_another_order() {
+    mean(
+        "quarter",
+        "name the statue Rosa and make it three times as large",
+        &[
+            "Name the statue Rosa and make it three times as large, the mayor insists.",
+            "Name the statue Rosa and make it three times as large, my wife told me so.",
+        ],
+    );
+    let city = City::read("quarter");
+    for words in [
+        "Name the statue Rosa and paint it blue, the mayor insists.",
+        "Call the statue Rosa and move it next to the fountain, the mayor insists.",
+    ] {
+        let swallows = |edits: &[Edit]| {
+            edits.iter().any(|edit| matches!(edit, Edit::Name { name, .. } if name != "Rosa"))
+        };
+        assert!(!edits_of(&city, words).is_ok_and(|edits| swallows(&edits)), "{words}");
+    }
+}
+
+#[test]
+fn what_is_kept_takes_back_the_order_about_it() {
+    mean(
+        "campus",
+        "remove the hydrant, and stand a flagpole where the hydrant was",
+        &[
+            "Remove the hedge, no, keep the hedge and remove the hydrant, and stand a flagpole where the hydrant was.",
+            "Remove the hedge, no wait, leave the hedge alone and remove the hydrant, and stand a flagpole where the hydrant was.",
+        ],
+    );
+    mean("campus", "remove the hydrant", &["remove the hedge, no, keep the hedge and remove the hydrant"]);
+}
+
+#[test]
+fn the_original_is_what_was_copied() {
+    let city = City::read("campus");
+    let copied = edits_of(&city, "copy the red bench to the left of the library").unwrap();
+    let painted = edits_of(&city, "paint the red bench yellow").unwrap();
+    for words in [
+        "Copy the red bench to the left of the library and paint the original yellow.",
+        "Copy the red bench to the left of the library, then paint the original bench yellow.",
+    ] {
+        assert_eq!(edits_of(&city, words), Ok([copied.clone(), painted.clone()].concat()), "{words}");
+    }
+    // Where nothing was copied there is no original.
+    assert!(edits_of(&city, "paint the original yellow").is_err());
+}
+
+#[test]
+fn what_reads_like_a_wish_and_is_none_is_left_out() {
+    for (city, plain, said) in [
+        (
+            "campus",
+            "remove all the cars except the black one",
+            &[
+                "Remove all the cars except the black one, the others belong to visitors.",
+                "Remove all the cars except the black one, they belong to visitors.",
+            ][..],
+        ),
+        (
+            "oldtown",
+            "put a coffee cup on the table",
+            &[
+                "Put a coffee cup on the table, somebody ordered an espresso.",
+                "Put a coffee cup on the table, a guest ordered an espresso.",
+                "Put a coffee cup on the table, someone just asked for an espresso.",
+            ],
+        ),
+        (
+            "oldtown",
+            "erect a war memorial at least 30 metres away from the bus stop",
+            &[
+                "Raise a war memorial at least 30 metres away from the bus stop, it must be quiet there.",
+                "raise a war memorial at least 30 metres away from the bus stop",
+            ],
+        ),
+    ] {
+        mean(city, plain, said);
+    }
+    let city = City::read("quarter");
+    assert_eq!(
+        edits_of(&city, "Bring the car here, I want to leave."),
+        edits_of(&city, "bring the car here"),
+        "which car is asked"
+    );
+    // What is ordered alone is ordered, and what the others should be is no remark.
+    mean("quarter", "put a bench here", &["somebody ordered a bench here"]);
+    let city = City::read("campus");
+    let remove = edits_of(&city, "remove all the cars except the black one").unwrap();
+    let words = "Remove all the cars except the black one, the others should be green.";
+    assert_ne!(edits_of(&city, words), Ok(remove), "{words}");
+}
+
+#[test]
+fn what_is_asked_of_texts_is_not_understood() {
+    let city = City::read("quarter");
+    for words in [
+        "Translate this paragraph into Finnish for me.",
+        "Please translate the letter into German.",
+        "Could you translate this into French?",
+        "Summarise this article.",
+    ] {
+        let answer = edits_of(&city, words).unwrap_err();
+        assert!(answer.starts_with("cannot understand"), "{words}: {answer}");
+    }
+    // To translate a thing is to move it.
+    mean("quarter", "move the statue two metres north", &["translate the statue two metres north"]);
+}
+
+#[test]
+fn names_of_assets_are_known_with_slips_in_each_word() {
+    mean(
+        "harbour",
+        "put a shipping container behind the museum",
+        &["Palce a shiping contaner behnd the musuem, quikly", "put a shiping contaner behind the museum"],
+    );
+    mean(
+        "quarter",
+        "put a concrete barrier behind Bo",
+        &["put a concrte barier behnd Bo, for his safty", "put a concrte barier behind Bo"],
+    );
+}
+
+#[test]
+fn roundabout_wishes_mean_what_plain_words_do() {
+    for (city, plain, said) in [
+        (
+            "harbour",
+            "put an advertising column within 20 feet of the hydrant",
+            &[
+                "An advertising column is fine, but no more than 20 feet from the hydrant.",
+                "An advertising column is ok, but at most 20 feet from the hydrant.",
+                "An advertising column would be fine, but not further than 20 feet from the hydrant.",
+            ][..],
+        ),
+        (
+            "harbour",
+            "put a generator behind St. Mary's Hospital",
+            &[
+                "We would all sleep better if a generator stood behind St. Mary's Hospital.",
+                "I'd be happier if a generator stood behind St. Mary's Hospital.",
+            ],
+        ),
+        (
+            "harbour",
+            "put a small dog to the left of Anna",
+            &["Me wanting that Anna has one small dog at left side of her."],
+        ),
+        (
+            "oldtown",
+            "paint the van pink",
+            &[
+                "My eyes would much rather see the van in pink.",
+                "I would rather see the van painted pink.",
+                "My wife would prefer to see the van in pink.",
+            ],
+        ),
+        (
+            "quarter",
+            "put a book to the left of Ada",
+            &["Ada she is needing one book, on left of her please.", "Ada she needs a book, at left of her"],
+        ),
+    ] {
+        mean(city, plain, said);
+    }
+    // What would make nobody happier is not wished for.
+    let city = City::read("harbour");
+    let words = "We would all be sad if a generator stood behind St. Mary's Hospital.";
+    assert!(edits_of(&city, words).is_err(), "{words}");
+}

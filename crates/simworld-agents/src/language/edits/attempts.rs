@@ -66,7 +66,7 @@ struct Attempts<'a> {
 
 impl Attempts<'_> {
     fn wishes(&self) -> Result<(Wishes, Option<Held>), PlanError> {
-        if self.asks_how_to() {
+        if self.asks_how_to() || self.reader.is_about_texts() {
             return Err(self.reader.not_understood(UNDERSTOOD));
         }
         if let Some(nobody) = self.reader.unknown_somebody(2) {

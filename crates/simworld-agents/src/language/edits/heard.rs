@@ -14,8 +14,8 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs, respelt,
-    retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
+    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs,
+    respelt, retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -75,6 +75,8 @@ impl Ear<'_> {
         let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
         let stood = reader.with_old_places(&finder);
         let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let originals = reader.with_originals(&finder);
+        let reader = Reader { lexemes: originals.as_deref().unwrap_or(reader.lexemes), ..reader };
         let left = reader.with_what_is_left(&finder);
         let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
         let several = reader.with_several_nearest(&finder);
@@ -177,6 +179,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    margins::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);

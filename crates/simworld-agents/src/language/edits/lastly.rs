@@ -13,7 +13,7 @@ use super::forms::{word, word_at, words_at};
 use super::retold::{Turns, told_by};
 use super::stood::point_at;
 use super::words::{VERBS, Verb};
-use super::{Focus, slips};
+use super::{Focus, misspelt, said_beside, slips};
 use crate::editing::Stock;
 
 /// Turns of phrase and what they mean, of one sentence each.
@@ -83,6 +83,31 @@ const LASTLY: &Turns = &[
     ("how|what about getting rid of N", "remove N"),
     ("how|what about putting|adding|placing|building|planting|having D A", "add D A"),
     ("how|what about D A W", "add D A W"),
+    // A thing that is fine where it is not too far, or not too near.
+    ("D A is|are|was|would|will|can be|- fine|ok|okay|welcome|good|alright|acceptable|allowed , but|only|just|- not|no|never more|farther|further than M away|- from|of|off B", "put D A within M of B"),
+    ("D A is|are|was|would|will|can be|- fine|ok|okay|welcome|good|alright|acceptable|allowed , but|only|just|- at most|maximum M away|- from|of|off B", "put D A within M of B"),
+    ("D A is|are|was|would|will|can be|- fine|ok|okay|welcome|good|alright|acceptable|allowed , but|only|just|- within M of|from B", "put D A within M of B"),
+    ("D A is|are|was|would|will|can be|- fine|ok|okay|welcome|good|alright|acceptable|allowed , but|only|just|- at least|minimum M away|- from|of|off B", "put D A at least M from B"),
+    ("D A is|are|was|would|will|can be|- fine|ok|okay|welcome|good|alright|acceptable|allowed , but|only|just|- not|no|never less|closer|nearer than M away|- from|of|off|to B", "put D A at least M from B"),
+    // What would make people sleep better.
+    ("i|we|they|you|people|everybody|everyone would|d|could|might all|both|also|surely|- be|feel|sleep|rest|work|breathe|live|eat|sit|look|walk so|very|much|far|a|- lot|bit|- more|- better|happier|safer|easier|calmer|glad|happy|delighted|grateful|pleased|thrilled|overjoyed|comfortable|comfortably|soundly|peacefully ,|- if D A was|were|stood|sat|went|lay|hung W", "put D A W"),
+    ("i|we|they|you|people|everybody|everyone would|d|could|might all|both|also|surely|- be|feel|sleep|rest|work|breathe|live|eat|sit|look|walk so|very|much|far|a|- lot|bit|- more|- better|happier|safer|easier|calmer|glad|happy|delighted|grateful|pleased|thrilled|overjoyed|comfortable|comfortably|soundly|peacefully ,|- if N was|were|stood|sat|went|lay|hung W", "move N W"),
+    ("i|we|they|you|people|everybody|everyone would|d|could|might all|both|also|surely|- be|feel|sleep|rest|work|breathe|live|eat|sit|look|walk so|very|much|far|a|- lot|bit|- more|- better|happier|safer|easier|calmer|glad|happy|delighted|grateful|pleased|thrilled|overjoyed|comfortable|comfortably|soundly|peacefully ,|- if N was|were painted|- in|- K", "paint N K"),
+    ("id|wed|theyd|youd all|both|also|surely|- be|feel|sleep|rest|work|breathe|live|eat|sit|look|walk so|very|much|far|a|- lot|bit|- more|- better|happier|safer|easier|calmer|glad|happy|delighted|grateful|pleased|thrilled|overjoyed|comfortable|comfortably|soundly|peacefully ,|- if D A was|were|stood|sat|went|lay|hung W", "put D A W"),
+    ("id|wed|theyd|youd all|both|also|surely|- be|feel|sleep|rest|work|breathe|live|eat|sit|look|walk so|very|much|far|a|- lot|bit|- more|- better|happier|safer|easier|calmer|glad|happy|delighted|grateful|pleased|thrilled|overjoyed|comfortable|comfortably|soundly|peacefully ,|- if N was|were|stood|sat|went|lay|hung W", "move N W"),
+    // What somebody would rather see.
+    ("my|our|the|his|her|their|- eyes|heart|soul|mother|mum|father|dad|wife|husband|boss|mayor|daughter|son|granny|grandmother|kids|children|neighbours|customers|guests|visitors|i|we|everybody|everyone|she|he|they|people would|d much|far|really|- rather|sooner|prefer to|- see|have|find|get|- N painted|- in|- K", "paint N K"),
+    ("id|wed|theyd|shed|hed much|far|really|- rather|sooner|prefer to|- see|have|find|get|- N painted|- in|- K", "paint N K"),
+    ("my|our|the|his|her|their|- eyes|heart|soul|mother|mum|father|dad|wife|husband|boss|mayor|daughter|son|granny|grandmother|kids|children|neighbours|customers|guests|visitors|i|we|everybody|everyone|she|he|they|people would|d much|far|really|- rather|sooner|prefer to|- see|have|find|get|- N W", "move N W"),
+    // Who learns the language.
+    ("me|i|we|us wanting|want|wants|needing|need|needs|wish|wishing|wishes|liking|like that|- B has|have|having|gets|get|own|owns D A ,|- at|on|to|by the|his|her|its|their|- left|right side|hand|- of|from|by|- him|her|it|them please|-", "put D A to the left of B"),
+    ("me|i|we|us wanting|want|wants|needing|need|needs|wish|wishing|wishes|liking|like that|- B has|have|having|gets|get|own|owns D A ,|- behind him|her|it|them please|-", "put D A behind B"),
+    ("me|i|we|us wanting|want|wants|needing|need|needs|wish|wishing|wishes|liking|like that|- B has|have|having|gets|get|own|owns D A ,|- beside|near|next|close|by to|- him|her|it|them please|-", "put D A next to B"),
+    ("me|i|we|us wanting|want|wants|needing|need|needs|wish|wishing|wishes|liking|like that|- B has|have|having|gets|get|own|owns D A ,|- in front of him|her|it|them please|-", "put D A in front of B"),
+    ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- at|on|to|by the|his|her|its|their|- left|right side|hand|- of|from|by|- him|her|it|them please|-", "put D A to the left of B"),
+    ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- behind him|her|it|them please|-", "put D A behind B"),
+    ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- beside|near|next|close|by to|- him|her|it|them please|-", "put D A next to B"),
+    ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- in front of him|her|it|them please|-", "put D A in front of B"),
 ];
 /// Before a noun.
 const DETERMINERS: &Phrases = &Phrases::of(&["the", "that", "this", "my", "our"]);
@@ -121,7 +146,17 @@ pub(super) fn ways(
     let placed = in_old_places(words, &plain, focus).or_else(|| at_its_side(words, &plain));
     let told = told_by(placed.as_deref().unwrap_or(&plain), &[LASTLY]);
     let is_told = !is_same(&told, placed.as_deref().unwrap_or(&plain));
-    sounded.into_iter().chain(placed).chain(is_told.then_some(told)).collect()
+    // What reads like a wish and asks for nothing, and assets whose words are misspelt.
+    let named = misspelt::in_plain_spelling(heard, stock);
+    let beside =
+        said_beside::without(named.as_deref().unwrap_or(&plain)).or_else(|| said_beside::without(heard));
+    // A word of these turns that nobody else says may have been taken for a slip: "wanting".
+    let unspelt = told_by(heard, &[LASTLY]);
+    let is_unspelt = !is_same(&unspelt, heard);
+    let rest = beside.as_deref().or(named.as_deref()).map(|rest| told_by(rest, &[LASTLY]));
+    let ways = sounded.into_iter().chain(placed).chain(is_told.then_some(told));
+    let ways = ways.chain(is_unspelt.then_some(unspelt));
+    ways.chain(beside).chain(named).chain(rest).collect()
 }
 
 fn is_same(one: &[Lexeme], other: &[Lexeme]) -> bool {

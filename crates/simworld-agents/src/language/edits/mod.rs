@@ -38,8 +38,10 @@ mod lastly;
 mod likened;
 mod loose;
 mod make;
+mod margins;
 mod measures;
 mod memo;
+mod misspelt;
 mod mistaken;
 mod naming;
 mod narrowed;
@@ -49,6 +51,7 @@ mod nth;
 mod offsets;
 mod ordered;
 mod orders;
+mod originals;
 mod others;
 mod painted;
 mod parse;
@@ -69,6 +72,7 @@ mod resolve;
 mod respelt;
 mod retold;
 mod rows;
+mod said_beside;
 mod sayings;
 mod says;
 mod settle;
@@ -88,6 +92,7 @@ mod stood;
 mod strangers;
 mod supposed;
 mod talk;
+mod texts;
 mod things;
 mod told;
 mod topics;
@@ -381,6 +386,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(casual::words())
         .chain(wording::words())
         .chain(topics::words())
+        .chain(originals::words())
+        .chain(texts::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -100,6 +100,10 @@ impl Reader<'_> {
             if (from + 1..stop).any(|at| self.begins_remark(at, stop)) {
                 return Err(self.not_understood("say what to name, and how"));
             }
+            // "Name the statue Rosa and make it larger": the name ends before what else is ordered.
+            if (from + 1..stop).any(|at| self.goes_on_with_order(at, stop)) {
+                return Err(self.not_understood("say what to name, and how"));
+            }
             stop = self.without_thanks(from, stop);
         }
         while stop > from + 1 && is_mark(&self.lexemes[stop - 1]) {
@@ -141,6 +145,22 @@ impl Reader<'_> {
                 ],
             )
             .is_some()
+    }
+
+    /// Whether "and" stands here and behind it an order about something; "Stand and Deliver" is a name.
+    fn goes_on_with_order(&self, at: usize, end: usize) -> bool {
+        #[rustfmt::skip]
+        const ABOUT: &[&str] = &["it", "him", "her", "them", "the", "that", "this", "a", "an", "my", "our", "another"];
+        let Some(and) = longest_phrase(&self.lexemes[at..end], &["and", "and then", "then"]) else {
+            return false;
+        };
+        let next = at + and;
+        if next >= end || self.words[self.lexemes[next].start..].starts_with(char::is_uppercase) {
+            return false;
+        }
+        self.order_at(next, end).is_some_and(|(_, words)| {
+            next + words < end && self.word(next + words).is_some_and(|word| ABOUT.contains(&word))
+        })
     }
 
     /// Where a name ends without thanks behind it.

@@ -221,6 +221,7 @@ impl Reader<'_> {
             && longest_phrase(clause, super::told::ORDERS_ANYTHING).is_none()
             && (any(IS) || tells())
             && !any(CHANGES)
+            && !super::margins::tells_room(clause)
             && !paints
             && !may_be_about
             && !self.is_wish(clause)

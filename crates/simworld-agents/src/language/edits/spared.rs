@@ -58,7 +58,8 @@ fn taken_back(lexemes: &[Lexeme], mark: usize) -> Option<(Vec<Token>, usize)> {
     }
     let spares = longest_phrase(&lexemes[at..], SPARES).filter(|_| is_said)?;
     let from = at + spares;
-    let end = (from..lexemes.len()).find(|at| is_mark(&lexemes[*at])).unwrap_or(lexemes.len());
+    let ends = |at: &usize| is_mark(&lexemes[*at]) || goes_on(&lexemes[*at..]).is_some();
+    let end = (from..lexemes.len()).find(ends).unwrap_or(lexemes.len());
     let tail = (from + 1..end).find(|at| longest_phrase(&lexemes[*at..end], AS_IT_IS) == Some(end - at));
     if tail.is_none() && longest_phrase(&lexemes[at..from], NEED_TAIL).is_some() {
         return None;
@@ -68,6 +69,15 @@ fn taken_back(lexemes: &[Lexeme], mark: usize) -> Option<(Vec<Token>, usize)> {
     let is_word = |lexeme: &Lexeme| matches!(lexeme.token, Token::Word(_));
     let is_name = (1..=LONGEST).contains(&noun.len()) && noun.iter().all(is_word);
     is_name.then(|| (noun.iter().map(|lexeme| lexeme.token.clone()).collect(), end))
+}
+
+/// How many words join another order to what stands before: "and remove the hydrant".
+fn goes_on(rest: &[Lexeme]) -> Option<usize> {
+    let and = longest_phrase(rest, &["and", "and then", "but", "then"])?;
+    let order = rest.get(and..)?;
+    let (_, verb) = longest(order, &VERBS)?;
+    longest_phrase(order.get(verb..)?, DETERMINERS)?;
+    Some(and)
 }
 
 /// The words before a mark without what they say of one thing, and those from `end` on.
@@ -104,7 +114,11 @@ fn without(lexemes: &[Lexeme], mark: usize, noun: &[Token], end: usize) -> Optio
             (true, true, _) => (verb, next),
             // "Paint the mailbox yellow and remove the hydrant".
             (false, _, 1..) => (verb - joined, stop),
-            _ => return None,
+            // "Remove the hedge, no, keep the hedge and remove the hydrant".
+            _ => {
+                let and = goes_on(&lexemes[end..])?;
+                return Some(lexemes[end + and..].to_vec());
+            }
         }
     };
     let mut plain = before[..cut].to_vec();
@@ -141,6 +155,8 @@ mod tests {
         );
         assert_eq!(plain("add a tent here and a van there, no, forget the van"), "add a tent here");
         assert_eq!(plain("swap the cars and remove the sign, no wait, keep the sign"), "swap the cars");
+        let hedge = "remove the hedge, no, keep the hedge and remove the hydrant, and put a pole there";
+        assert_eq!(plain(hedge), "remove the hydrant , and put a pole there");
     }
 
     #[test]
