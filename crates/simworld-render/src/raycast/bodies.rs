@@ -2,7 +2,8 @@
 //! step. What moves is told by its motion, not by its kind: a parked car is one of those that stand, until it drives off.
 //!
 //! A leaf is an entity with the instances of all its levels of detail, of which a ray looks through those of one level; what is the same at every
-//! level is a leaf of its own. So somebody of one pixel is one box, and one mesh behind it.
+//! level is a leaf of its own. So somebody of one pixel is one box, and one mesh behind it. A body that is dressed as it is seen is one leaf, behind its
+//! first instance, whatever of it is dressed: it is in its tree also while nobody sees it, without an instance at any level.
 
 use std::ops::Range;
 
@@ -16,7 +17,7 @@ use super::shape::Shapes;
 use super::soup::Shape;
 use crate::look::Detail;
 use crate::mesh::Drawn;
-use crate::resident::{Instance, Residents};
+use crate::resident::{Card, Instance, Residents};
 use crate::threads;
 
 /// Levels of a tree over instances at most, as in rays.wgsl.
@@ -227,6 +228,11 @@ impl Bodies {
         self.changed.clear();
         let is_there = |number: &u32| self.boxes[*number as usize] != Box3::EMPTY;
         self.movers = was_moving.into_iter().filter(is_there).collect();
+        // Who is dressed as it is seen has moved.
+        let has_moved = |number: &u32| residents.cards[*number as usize].nimble && is_there(number);
+        self.movers.extend((0..count as u32).filter(has_moved));
+        self.movers.sort_unstable();
+        self.movers.dedup();
         for number in &self.movers {
             self.homes[*number as usize] = Home::Moving;
         }
@@ -314,14 +320,18 @@ impl Placer<'_> {
     fn place(&self, slot: u32, out: &mut Vec<(u32, Placed, Box3)>) {
         let start = out.len();
         for number in self.residents.numbers_of(slot) {
-            let (placed, bounds) = self.alone(number).unwrap_or((Placed::zeroed(), Box3::EMPTY));
+            let (placed, bounds) = match self.residents.cards[number as usize].details {
+                0 => (Placed::zeroed(), self.spot(number)),
+                _ => self.alone(number).unwrap_or((Placed::zeroed(), Box3::EMPTY)),
+            };
             out.push((number, placed, bounds));
         }
-        // Those of some levels only are one leaf, behind their first.
+        // Those of some levels only are one leaf, behind their first; so is all of a body that is dressed as it is seen.
         let (mut whole, mut next, mut first) = (Box3::EMPTY, [NONE; 3], None);
         for (index, (number, placed, bounds)) in out.iter_mut().enumerate().skip(start).rev() {
-            let details = self.residents.cards[*number as usize].details;
-            if details == Detail::EVERY || *bounds == Box3::EMPTY {
+            let card = &self.residents.cards[*number as usize];
+            let details = card.details;
+            if is_leaf(card) || *bounds == Box3::EMPTY {
                 continue;
             }
             whole = whole.grown(std::mem::replace(bounds, Box3::EMPTY));
@@ -336,6 +346,13 @@ impl Placer<'_> {
         if let Some((_, placed, bounds)) = first.and_then(|index| out.get_mut(index)) {
             (placed.first, *bounds) = (next, whole);
         }
+    }
+
+    /// Where a body was that nobody sees: its leaf is a point, and holds nothing.
+    fn spot(&self, number: u32) -> Box3 {
+        let at = (self.residents.grid.ball(number).center.coords - self.origin)
+            .map(|coordinate| coordinate as f32);
+        Box3::around([[at.x, at.y, at.z]])
     }
 
     /// An instance that is a leaf of its own; `None` if it has no mesh.
@@ -376,7 +393,7 @@ impl Placer<'_> {
     /// goes aslant through the city is half of the city.
     fn cut(&self, number: u32, whole: Box3, out: &mut Vec<(u32, Box3)>) {
         let card = &self.residents.cards[number as usize];
-        let alone = card.details == Detail::EVERY && card.mesh.speck().is_none();
+        let alone = is_leaf(card) && card.mesh.speck().is_none();
         let Some(shape) = self.shapes.of(card.mesh).filter(|_| alone) else {
             return out.push((number, whole));
         };
@@ -418,6 +435,11 @@ impl Placer<'_> {
         };
         Box3 { low: moved(-1.0), high: moved(1.0) }
     }
+}
+
+/// Whether an instance is a leaf of its own, and not one of those behind the first of its entity.
+fn is_leaf(card: &Card) -> bool {
+    card.details == Detail::EVERY && !card.nimble
 }
 
 /// The least and the greatest corner of a shape in the body frame of an instance, m.
