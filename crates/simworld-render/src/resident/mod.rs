@@ -15,8 +15,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dressed::{Body, Dressed, Tailor};
 pub(crate) use dressed::Part;
+use dressed::{Body, Dressed, Tailor};
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
 use simworld_core::asset::Season;
@@ -219,7 +219,13 @@ impl Residents {
 
     /// Dresses who is in these slots now, by as many threads as that is worth; `again` says that nothing changed there, so that what is up to date of
     /// whom stays.
-    fn look_at(&mut self, scene: &dyn Scene, slots: &[(u32, Option<EntityId>)], demand: &Demand, again: bool) {
+    fn look_at(
+        &mut self,
+        scene: &dyn Scene,
+        slots: &[(u32, Option<EntityId>)],
+        demand: &Demand,
+        again: bool,
+    ) {
         if slots.is_empty() {
             return;
         }
@@ -341,3 +347,6 @@ impl Card {
         if self.slot == NONE { None } else { Some(self.slot) }
     }
 }
+
+#[cfg(test)]
+mod tests;
