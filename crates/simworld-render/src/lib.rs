@@ -8,6 +8,7 @@ mod coats;
 mod config;
 mod coverage;
 mod deck;
+mod demand;
 mod draw_list;
 mod error;
 mod export;

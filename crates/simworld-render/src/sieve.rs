@@ -28,7 +28,7 @@ const SLACK: u32 = 10;
 /// More than any ball needs to have all pixels that are asked for.
 const ENOUGH: f32 = (1_u64 << 60) as f32;
 /// A shadow texel says less than a pixel: there is a silhouette and nothing else, and its edge is spread over two texels.
-const SHADOW_SHARE: f64 = 0.33;
+pub(crate) const SHADOW_SHARE: f64 = 0.33;
 
 /// Pixels below which a speck stands for a mesh, see [`Drawn::speck`].
 pub(crate) const SPECKS: [f64; 7] = [15.0, 16.0, 22.0, 44.0, 55.0, 60.0, 220.0];

@@ -13,6 +13,7 @@ use simworld_core::scene::Scene;
 use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
 use crate::coats::Coats;
 use crate::config::{AntiAliasing, Backend, LevelOfDetail};
+use crate::demand::{Demand, Manner};
 use crate::draw_list::DrawList;
 use crate::falling::Falling;
 use crate::gpu::{Features, Globals, Gpu, Planes, Readback, Readbacks, Scenery, Sifter, Timing, place};
@@ -42,6 +43,8 @@ pub(crate) struct Works {
     /// Batches that were left on the device, the oldest first.
     left: VecDeque<wgpu::SubmissionIndex>,
     residents: Residents,
+    /// What the batch at hand may show of whom.
+    demand: Demand,
     coats: Coats,
     list: DrawList,
     /// The light of the environment that was drawn last.
@@ -92,6 +95,7 @@ impl Works {
             timing,
             left: VecDeque::new(),
             residents,
+            demand: Demand::default(),
             coats,
             list,
             light: None,
@@ -152,13 +156,14 @@ impl Works {
         }
         let layout = Layout::of(requests.iter().map(|request| &request.camera.intrinsics));
         self.planes.hold(&self.gpu, &layout, options)?;
-        self.residents.follow(scene, &sight.region);
+        let in_color = options.channels.contains(Channels::RGB);
+        let is_cast = table.is_some() || self.casts(config, options, &layout);
+        let manner = self.ask(config, &sight, table.is_some(), is_cast, in_color);
+        self.residents.follow(scene, &sight.region, &self.demand);
         if self.residents.names.len() > MOST_SLOTS {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
         self.coats.hold(&self.gpu, self.residents.sources(scene), &self.residents.models)?;
-        let in_color = options.channels.contains(Channels::RGB);
-        let is_cast = table.is_some() || self.casts(config, options, &layout);
         let (globals, features) = self.send(scene, &sight, in_color, is_cast)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.timing.begin();
@@ -166,8 +171,6 @@ impl Works {
             self.pass_over();
             let store = self.coats.texels();
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu, store));
-            // A ray of a table is no pixel that something could be smaller than.
-            let min_pixels = if table.is_some() { 0.0 } else { config.min_pixels };
             let views = &sight.views[..];
             let look = Look {
                 views,
@@ -175,9 +178,9 @@ impl Works {
                 requests,
                 layout: &layout,
                 falling: &sight.falling,
-                min_pixels,
+                min_pixels: manner.min_pixels,
                 store: store.group(),
-                finest: table.is_some() || self.residents.finest,
+                finest: manner.finest,
                 table,
             };
             raycast.hold(&self.gpu, scene, &self.residents, &look)?;
@@ -212,6 +215,28 @@ impl Works {
         }
         self.planes.pack(&mut encoder, &mut self.timing, &layout);
         Ok((encoder, layout))
+    }
+
+    /// Finds out what a batch may show of bodies that move; gives how it looks at things.
+    fn ask(
+        &mut self,
+        config: &RenderConfig,
+        sight: &Sight,
+        by_table: bool,
+        is_cast: bool,
+        in_color: bool,
+    ) -> Manner {
+        let manner = Manner {
+            // A ray of a table is no pixel that something could be smaller than.
+            min_pixels: if by_table { 0.0 } else { config.min_pixels },
+            finest: by_table || self.residents.finest,
+            is_cast,
+            in_color,
+            widest: self.residents.widest,
+        };
+        let maps: &[Option<ShadowView>] = if in_color && !is_cast { &sight.shadows } else { &[] };
+        self.demand.gather(&sight.views, maps, &manner);
+        manner
     }
 
     /// Checks the cameras, and finds out what they look at in which light.

@@ -140,7 +140,7 @@ mod tests {
             world.set_joints(id, joints).unwrap();
         }
         let mut parts = Vec::new();
-        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
         parts
     }
 

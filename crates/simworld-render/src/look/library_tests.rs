@@ -27,7 +27,7 @@ fn dressed(
     let id = world.add_asset(asset.clone()).unwrap();
     let id = world.spawn(change(asset.at(id, Pose::identity()))).unwrap();
     let mut parts = Vec::new();
-    Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+    Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
     parts
 }
 
@@ -107,7 +107,7 @@ fn plants_of_no_asset_turn_too() {
             let pose = pose_facing(Point3::new(9.0 * f64::from(k), 0.0, 0.0), 0.0);
             let id = world.spawn(EntityDesc::new(kind, pose, Shape::cuboid(1.0, 1.0, 4.0))).unwrap();
             let mut parts = Vec::new();
-            Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+            Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
             parts
         };
         let plants: Vec<Vec<resident::Part>> = (0..12).map(&mut plant).collect();
@@ -136,7 +136,7 @@ fn things_take_light_as_their_material_does() {
     let desc = EntityDesc::new(EntityKind::Prop, Pose::identity(), Shape::cuboid(1.0, 1.0, 1.0));
     let id = world.spawn(desc.with("material", "rubber")).unwrap();
     let mut parts = Vec::new();
-    Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+    Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
     assert_eq!(parts[0].look.color, [Material::Rubber.reflectance() as f32; 3]);
 }
 

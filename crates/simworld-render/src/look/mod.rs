@@ -3,6 +3,7 @@
 mod afar;
 mod buildings;
 mod creatures;
+mod detail;
 #[cfg(test)]
 mod library_tests;
 mod links;
@@ -24,38 +25,9 @@ use simworld_core::seed::{Seed, Stream};
 use crate::mesh::{Drawn, MeshId, ModelId, Pattern};
 use crate::resident;
 use crate::sources::{LinkModels, Source, model_of};
+pub(crate) use detail::{Detail, comes_in_levels};
 use street::Streets;
 pub(crate) use street::mark_layer;
-
-/// How much of an entity is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Detail {
-    /// A few pixels: one mesh of few triangles.
-    Far,
-    /// All parts that move, coarsely.
-    Middle,
-    /// Everything.
-    Near,
-}
-
-impl Detail {
-    /// What has a larger ball, m, has its details in less of it.
-    pub(crate) const LARGE: f64 = 8.5;
-
-    /// Pixels across a ball below which that in it is far, and below which it is in the middle: of what is not large, and of what is.
-    pub(crate) fn thresholds() -> [[f64; 2]; 2] {
-        [1.0, 0.3].map(|share| [28.0, 80.0].map(|pixels| pixels / share))
-    }
-
-    const ALL: [Self; 3] = [Self::Far, Self::Middle, Self::Near];
-    /// The bits of all of them.
-    pub(crate) const EVERY: u8 = 7;
-
-    /// Its bit in a set of levels.
-    pub(crate) const fn bit(self) -> u8 {
-        1 << self as u8
-    }
-}
 
 /// What dresses a kind of entity: the entity, its scene, its plain look, the bits of its variation, the level of detail, and
 /// where the parts go.
@@ -123,8 +95,15 @@ impl Looks {
         self.streets.follow(scene)
     }
 
-    /// Dresses an entity: its rigid parts at every level of detail. What is the same at several stands there once.
-    pub(crate) fn dress(&self, entity: &EntityRef<'_>, scene: &dyn Scene, out: &mut Vec<resident::Part>) {
+    /// Dresses an entity: its rigid parts at some levels of detail, by their [bits](Detail::bit); those of whom [comes in none](comes_in_levels) are
+    /// all there whatever was asked for. What is the same at several levels stands there once.
+    pub(crate) fn dress(
+        &self,
+        entity: &EntityRef<'_>,
+        scene: &dyn Scene,
+        levels: u8,
+        out: &mut Vec<resident::Part>,
+    ) {
         let whole = |mesh, look| resident::Part { mesh, pose: *entity.pose, look, details: Detail::EVERY };
         if let Some(links) = scene.links(entity.id) {
             return self.articulated(entity, &links, out);
@@ -160,7 +139,7 @@ impl Looks {
         };
         let plain = self.plain(entity);
         let mut parts = Vec::new();
-        for detail in Detail::ALL {
+        for detail in Detail::ALL.into_iter().filter(|detail| levels & detail.bit() != 0) {
             parts.clear();
             dresser(entity, scene, &plain, bits, detail, &mut parts);
             let known = out.len();
@@ -407,7 +386,7 @@ mod tests {
         let mut world = World::new();
         let id = world.spawn(at_origin(kind, shape)).unwrap();
         let mut parts = Vec::new();
-        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
         parts
     }
 
@@ -464,7 +443,7 @@ mod tests {
         let links = [0.3, 0.9, 1.4].map(|x| pose_facing(Point3::new(x, 0.1, 0.5 * x), 2.0 * x));
         world.set_links(id, &forms, &links).unwrap();
         let mut parts = Vec::new();
-        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
         let meshes: Vec<MeshId> = parts.iter().map(|part| part.look.mesh).collect();
         assert_eq!(meshes, [MeshId::Cylinder, MeshId::Sphere, MeshId::Cuboid]);
         for (part, link) in parts.iter().zip(&links) {

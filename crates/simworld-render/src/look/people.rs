@@ -327,7 +327,7 @@ mod tests {
             JointAngles { left_leg: leg, right_leg: leg, left_arm: arm, right_arm: arm, neck, hip_drop: 0.1 };
         world.set_joints(id, joints).unwrap();
         let mut parts = Vec::new();
-        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        Looks::default().dress(&world.entity(id).unwrap(), &world, Detail::EVERY, &mut parts);
         let of = |mesh: MeshId| -> Vec<&resident::Part> {
             parts.iter().filter(|part| part.look.mesh == mesh).collect()
         };

@@ -2,22 +2,24 @@
 //! step. What moves is told by its motion, not by its kind: a parked car is one of those that stand, until it drives off.
 //!
 //! A leaf is an entity with the instances of all its levels of detail, of which a ray looks through those of one level; what is the same at every
-//! level is a leaf of its own. So somebody of one pixel is one box, and one mesh behind it.
+//! level is a leaf of its own. So somebody of one pixel is one box, and one mesh behind it. A body that is dressed as it is seen is one leaf, behind its
+//! first instance, whatever of it is dressed: it is in its tree also while nobody sees it, without an instance at any level.
+
+use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use simworld_core::geometry::Vector3;
 use simworld_core::scene::Scene;
 
 use super::bvh::{Box3, Child, NONE, Tree, WIDTH};
+use super::nodes::{Node, code};
 use super::shape::Shapes;
-use super::soup::{Shape, bound};
+use super::soup::Shape;
 use crate::look::Detail;
 use crate::mesh::Drawn;
-use crate::resident::{Instance, Residents};
+use crate::resident::{Card, Instance, Residents};
 use crate::threads;
 
-/// Marks a child as a leaf; beside it stands the number of its first instance.
-const IS_LEAF: u32 = 1 << 31;
 /// Levels of a tree over instances at most, as in rays.wgsl.
 const LEVELS: u32 = 14;
 /// What stands and is longer is in its tree piece by piece, m.
@@ -26,32 +28,14 @@ const PIECE: f64 = 32.0;
 const MOST_CUTS: f64 = 64.0;
 /// Entities that are worth a thread.
 const SHARE: usize = 128;
+/// Nodes that are followed together, at most.
+const BRANCH: usize = 256;
 /// Marks what throws no shadow, in [`Placed::order`].
 const NO_SHADOW: u32 = 1 << 31;
 /// As many refits, and the tree of what moves is laid out anew.
 const REFITS: u32 = 64;
 /// As many newcomers among what moves, beside a quarter of what stands still, and everything is laid out anew.
 const NEWCOMERS: usize = 4096;
-
-/// A node as in rays.wgsl: four children, their boxes axis by axis; where there is no child the box is inside out.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(super) struct Node {
-    codes: [u32; WIDTH],
-    low: [[f32; WIDTH]; 3],
-    high: [[f32; WIDTH]; 3],
-}
-
-impl Node {
-    /// Makes a child a hole.
-    fn leave(&mut self, child: usize) {
-        self.codes[child] = NONE;
-        for axis in 0..3 {
-            // Inside out, as an empty box.
-            (self.low[axis][child], self.high[axis][child]) = (f32::INFINITY, f32::NEG_INFINITY);
-        }
-    }
-}
 
 /// The twin of `Placed` in rays.wgsl.
 #[repr(C)]
@@ -110,6 +94,8 @@ pub(super) struct Bodies {
     /// The leaves of the first tree, by number: four times the node, plus which child of it.
     spots: Vec<(u32, u32)>,
     moving: Tree,
+    /// Of the tree of what moves.
+    branches: Vec<Range<usize>>,
     movers: Vec<u32>,
     /// How many leaves the first tree was laid out with.
     standing: usize,
@@ -135,6 +121,7 @@ impl Bodies {
             patched: Vec::new(),
             spots: Vec::new(),
             moving: Tree::default(),
+            branches: Vec::new(),
             movers: Vec::new(),
             standing: 0,
             homes: Vec::new(),
@@ -241,6 +228,11 @@ impl Bodies {
         self.changed.clear();
         let is_there = |number: &u32| self.boxes[*number as usize] != Box3::EMPTY;
         self.movers = was_moving.into_iter().filter(is_there).collect();
+        // Who is dressed as it is seen has moved.
+        let has_moved = |number: &u32| residents.cards[*number as usize].nimble && is_there(number);
+        self.movers.extend((0..count as u32).filter(has_moved));
+        self.movers.sort_unstable();
+        self.movers.dedup();
         for number in &self.movers {
             self.homes[*number as usize] = Home::Moving;
         }
@@ -265,7 +257,8 @@ impl Bodies {
         let boxes: Vec<Box3> = pieces.iter().map(|(_, piece)| *piece).collect();
         let tree = Tree::build(&boxes, 1, LEVELS);
         let leaf = |position: u32| pieces[tree.order[position as usize] as usize];
-        self.nodes = coded(&tree, 0, &leaf);
+        self.nodes.clear();
+        code(&tree, &tree.branches(BRANCH), 0, &leaf, &mut self.nodes);
         self.second = self.nodes.len() as u32;
         let spots = (0..).zip(tree.nodes.as_flattened()).filter_map(|(spot, child)| match child {
             Child::Leaf { first, .. } => Some((leaf(*first).0, spot)),
@@ -279,19 +272,19 @@ impl Bodies {
         let boxes: Vec<Box3> = self.movers.iter().map(|number| self.boxes[*number as usize]).collect();
         self.moving = Tree::build(&boxes, 1, LEVELS);
         self.moving.order.iter_mut().for_each(|position| *position = self.movers[*position as usize]);
+        self.branches = self.moving.branches(BRANCH);
         self.refits = 0;
     }
 
     /// The tree of what moves, where it is now; those who went elsewhere are holes.
     fn code_movers(&mut self) {
+        let Self { moving, branches, second, homes, boxes, nodes, .. } = self;
         let leaf = |position: u32| {
-            let number = self.moving.order[position as usize];
-            let is_in = self.homes[number as usize] == Home::Moving;
-            if is_in { (number, self.boxes[number as usize]) } else { (NONE, Box3::EMPTY) }
+            let number = moving.order[position as usize];
+            let is_in = homes[number as usize] == Home::Moving;
+            if is_in { (number, boxes[number as usize]) } else { (NONE, Box3::EMPTY) }
         };
-        let moving = coded(&self.moving, self.second, &leaf);
-        self.nodes.truncate(self.second as usize);
-        self.nodes.extend(moving);
+        code(moving, branches, *second, &leaf, nodes);
     }
 
     /// Finds where the instances of these slots are, and of which leaves they are.
@@ -315,24 +308,6 @@ impl Bodies {
     }
 }
 
-/// The nodes of a tree, of which the first has that number; a leaf says which instance is at a position of its order, and in what box.
-fn coded(tree: &Tree, first: u32, leaf: &dyn Fn(u32) -> (u32, Box3)) -> Vec<Node> {
-    let leaves: Vec<Box3> = (0..tree.order.len() as u32).map(|position| leaf(position).1).collect();
-    let boxes = bound(tree, &leaves);
-    let code = |child: Child| match child {
-        Child::Node(node) => first + node,
-        // NONE has the mark of leaves too.
-        Child::Leaf { first, .. } => IS_LEAF | leaf(first).0,
-        Child::Nothing => NONE,
-    };
-    let node = |(children, boxes): (&[Child; WIDTH], &[Box3; WIDTH])| Node {
-        codes: children.map(code),
-        low: std::array::from_fn(|axis| boxes.map(|one| one.low[axis])),
-        high: std::array::from_fn(|axis| boxes.map(|one| one.high[axis])),
-    };
-    tree.nodes.iter().zip(&boxes).map(node).collect()
-}
-
 /// Finds where instances are.
 struct Placer<'a> {
     shapes: &'a Shapes,
@@ -345,14 +320,18 @@ impl Placer<'_> {
     fn place(&self, slot: u32, out: &mut Vec<(u32, Placed, Box3)>) {
         let start = out.len();
         for number in self.residents.numbers_of(slot) {
-            let (placed, bounds) = self.alone(number).unwrap_or((Placed::zeroed(), Box3::EMPTY));
+            let (placed, bounds) = match self.residents.cards[number as usize].details {
+                0 => (Placed::zeroed(), self.spot(number)),
+                _ => self.alone(number).unwrap_or((Placed::zeroed(), Box3::EMPTY)),
+            };
             out.push((number, placed, bounds));
         }
-        // Those of some levels only are one leaf, behind their first.
+        // Those of some levels only are one leaf, behind their first; so is all of a body that is dressed as it is seen.
         let (mut whole, mut next, mut first) = (Box3::EMPTY, [NONE; 3], None);
         for (index, (number, placed, bounds)) in out.iter_mut().enumerate().skip(start).rev() {
-            let details = self.residents.cards[*number as usize].details;
-            if details == Detail::EVERY || *bounds == Box3::EMPTY {
+            let card = &self.residents.cards[*number as usize];
+            let details = card.details;
+            if is_leaf(card) || *bounds == Box3::EMPTY {
                 continue;
             }
             whole = whole.grown(std::mem::replace(bounds, Box3::EMPTY));
@@ -367,6 +346,13 @@ impl Placer<'_> {
         if let Some((_, placed, bounds)) = first.and_then(|index| out.get_mut(index)) {
             (placed.first, *bounds) = (next, whole);
         }
+    }
+
+    /// Where a body was that nobody sees: its leaf is a point, and holds nothing.
+    fn spot(&self, number: u32) -> Box3 {
+        let at = (self.residents.grid.ball(number).center.coords - self.origin)
+            .map(|coordinate| coordinate as f32);
+        Box3::around([[at.x, at.y, at.z]])
     }
 
     /// An instance that is a leaf of its own; `None` if it has no mesh.
@@ -407,7 +393,7 @@ impl Placer<'_> {
     /// goes aslant through the city is half of the city.
     fn cut(&self, number: u32, whole: Box3, out: &mut Vec<(u32, Box3)>) {
         let card = &self.residents.cards[number as usize];
-        let alone = card.details == Detail::EVERY && card.mesh.speck().is_none();
+        let alone = is_leaf(card) && card.mesh.speck().is_none();
         let Some(shape) = self.shapes.of(card.mesh).filter(|_| alone) else {
             return out.push((number, whole));
         };
@@ -449,6 +435,11 @@ impl Placer<'_> {
         };
         Box3 { low: moved(-1.0), high: moved(1.0) }
     }
+}
+
+/// Whether an instance is a leaf of its own, and not one of those behind the first of its entity.
+fn is_leaf(card: &Card) -> bool {
+    card.details == Detail::EVERY && !card.nimble
 }
 
 /// The least and the greatest corner of a shape in the body frame of an instance, m.

@@ -1,6 +1,8 @@
 //! Trees of boxes with four children a node: the topology by binned surface areas (Wald 2007) of halves, of which two levels at a time are joined
 //! where their boxes are largest; the same for the same boxes.
 
+use std::ops::Range;
+
 /// A box, least and greatest corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Box3 {
@@ -81,6 +83,34 @@ impl Tree {
         }
         // Of halves that are not too deep any two levels are one.
         Halves::build(boxes, leaf, Some(2 * levels)).joined(false)
+    }
+
+    /// Runs of nodes that lead to none but their own, each of at most so many, in ascending order: what several threads may follow at once. What is in
+    /// none of them leads to these.
+    pub(super) fn branches(&self, most: usize) -> Vec<Range<usize>> {
+        // What is below a node lies together, since it is laid out before anything else is.
+        let below = |node: usize| {
+            self.nodes[node].iter().filter_map(|child| match child {
+                Child::Node(child) => Some(*child as usize),
+                _ => None,
+            })
+        };
+        let mut ends: Vec<usize> = (1..=self.nodes.len()).collect();
+        for node in (0..ends.len()).rev() {
+            ends[node] = below(node).fold(node + 1, |end, child| end.max(ends[child]));
+        }
+        let (mut branches, mut open) = (Vec::new(), Vec::new());
+        open.extend((!self.nodes.is_empty()).then_some(0));
+        while let Some(node) = open.pop() {
+            let Some(first) = below(node).min() else { continue };
+            if ends[node] - first <= most {
+                branches.push(first..ends[node]);
+            } else {
+                open.extend(below(node));
+            }
+        }
+        branches.sort_unstable_by_key(|branch| branch.start);
+        branches
     }
 
     /// Nodes on the longest way from the root, itself among them: a walk puts one entry aside for each.
@@ -293,6 +323,34 @@ mod tests {
             prop_assert_eq!(seen, (0..boxes.len() as u32).collect::<Vec<_>>());
             prop_assert!(tree.levels() <= LEVELS, "{}", tree.levels());
             prop_assert_eq!(&Tree::build(&boxes, leaf, LEVELS).order, &tree.order);
+        }
+
+        /// Branches lie one behind the other, lead to none but their own nodes, and are as small as was asked for; what is in none of them leads nowhere else than
+        /// to the beginnings of theirs and to one another.
+        #[test]
+        fn branches_lead_to_their_own(
+            corners in prop::collection::vec((-50.0..50.0f32, -50.0..50.0f32, 0.0..9.0f32), 0..400),
+            most in 1..60usize,
+        ) {
+            let boxes: Vec<Box3> =
+                corners.into_iter().map(|(x, y, z)| Box3 { low: [x, y, z], high: [x + 1.0, y + 1.0, z + 1.0] }).collect();
+            let tree = Tree::build(&boxes, 1, 14);
+            let branches = tree.branches(most);
+            let mut end = 0;
+            for branch in &branches {
+                prop_assert!(branch.start >= end && branch.len() <= most && !branch.is_empty());
+                end = branch.end;
+                for children in &tree.nodes[branch.clone()] {
+                    for child in children {
+                        let stays = !matches!(child, Child::Node(node) if !branch.contains(&(*node as usize)));
+                        prop_assert!(stays, "{branch:?} leads to {child:?}");
+                    }
+                }
+            }
+            prop_assert!(end <= tree.nodes.len());
+            // Of a tree that is small enough all that is below the root is one.
+            let whole = 1..tree.nodes.len();
+            prop_assert_eq!(tree.branches(400), if whole.is_empty() { Vec::new() } else { vec![whole] });
         }
     }
 

@@ -6,6 +6,7 @@
 mod bodies;
 mod bvh;
 mod halves;
+mod nodes;
 mod shape;
 mod soup;
 
@@ -225,7 +226,7 @@ impl Raycast {
         let (first, end) = (self.bodies.second, self.bodies.nodes.len() as u32);
         let patches = runs(&mut self.bodies.patched, everything.then_some(first));
         for run in patches.into_iter().chain(std::iter::once(first..end)) {
-            let offset = u64::from(run.start) * size_of::<bodies::Node>() as u64;
+            let offset = u64::from(run.start) * size_of::<nodes::Node>() as u64;
             let nodes = &self.bodies.nodes[run.start as usize..run.end as usize];
             gpu.queue.write_buffer(&self.nodes, offset, bytemuck::cast_slice(nodes));
         }

@@ -4,37 +4,40 @@
 //! and in the grid. Numbers depend on what came before; what reaches a picture is ordered by entity and part instead.
 
 mod bounds;
+mod dressed;
 mod grid;
 mod instance;
 mod layers;
+mod numbers;
+mod wardrobe;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use bounds::{ball_of, casts};
+pub(crate) use dressed::Part;
+use dressed::{Body, Dressed, Tailor};
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
 use simworld_core::asset::Season;
 use simworld_core::clock::Tick;
-use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
+use simworld_core::geometry::{Aabb, Point3, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::net::Aspect;
-use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
+use simworld_core::scene::{EntityKind, Mark, Scene};
 
-use crate::classes::class_of;
-use crate::look::{Look, Looks};
+use crate::demand::Demand;
+use crate::look::Looks;
 use crate::mesh::{Drawn, ModelId};
 use crate::occlusion::Block;
 use crate::sieve::Grain;
 use crate::sources::Sources;
 use crate::threads;
+use wardrobe::Wardrobe;
 
 const NONE: u32 = u32::MAX;
 /// Entities that are worth a thread.
 const SHARE: usize = 128;
-/// What has a smaller ball hides little, m.
-const LEAST_WALL: f64 = 3.0;
 
 /// What is known of an instance beside what the shaders read.
 #[derive(Clone, Copy, Debug)]
@@ -48,66 +51,13 @@ pub(crate) struct Card {
     pub casts: bool,
     /// Whether its kind moves about.
     pub mobile: bool,
-    /// At which levels of detail it is drawn, as [`crate::look::Detail::bit`]s: an entity has instances for each of them.
+    /// At which levels of detail it is drawn, as [`crate::look::Detail::bit`]s: an entity has instances for each of them. None of what only
+    /// keeps a number for a body that nobody sees.
     pub details: u8,
+    /// Whether its number is one of those that only bodies have that are dressed as they are seen.
+    pub nimble: bool,
     /// The next instance of the entity, or of the free ones.
     next: u32,
-}
-
-/// One instance of an entity before it has a number.
-pub(crate) struct Part {
-    pub mesh: Drawn,
-    /// World from part.
-    pub pose: Pose,
-    pub look: Look,
-    /// At which levels of detail it is drawn, as [`crate::look::Detail::bit`]s.
-    pub details: u8,
-}
-
-/// Entities as they are dressed, before they have numbers.
-#[derive(Default)]
-struct Dressed {
-    parts: Vec<(Part, Instance)>,
-    bodies: Vec<Body>,
-    /// Those of one entity.
-    own: Vec<Part>,
-}
-
-/// What is in a slot, and how many parts it has.
-struct Body {
-    slot: u32,
-    parts: usize,
-    there: Option<There>,
-}
-
-/// Who is seen in a slot.
-struct There {
-    id: EntityId,
-    kind: EntityKind,
-    ball: Ball,
-    is_restless: bool,
-}
-
-impl Dressed {
-    fn add(&mut self, looks: &Looks, scene: &dyn Scene, slot: u32, id: Option<EntityId>) {
-        let Some(entity) = id.and_then(|id| scene.entity(id)).filter(EntityRef::is_visible) else {
-            return self.bodies.push(Body { slot, parts: 0, there: None });
-        };
-        self.own.clear();
-        looks.dress(&entity, scene, &mut self.own);
-        let plays = |part: &Part| matches!(part.mesh, Drawn::Model(ModelId { pose: Some(_), .. }));
-        let is_restless = entity.gesture().is_some() || self.own.iter().any(plays);
-        let class = class_of(entity.kind);
-        let with_instance = |part: Part| {
-            let instance = Instance::new(&part.pose, &part.look, entity.id, class);
-            (part, instance)
-        };
-        let parts = self.own.len();
-        self.parts.extend(self.own.drain(..).map(with_instance));
-        let ball = ball_of(&entity, scene);
-        let there = There { id: entity.id, kind: entity.kind, ball, is_restless };
-        self.bodies.push(Body { slot, parts, there: Some(there) });
-    }
 }
 
 /// The instances of a scene.
@@ -136,7 +86,12 @@ pub(crate) struct Residents {
     pub stamps: Vec<u64>,
     /// By slot, the first instance of who is there.
     heads: Vec<u32>,
-    free: u32,
+    /// The first number that is free, of those of everybody and of those of who is dressed as it is seen.
+    free: [u32; 2],
+    /// Who is dressed as it is seen.
+    wardrobe: Wardrobe,
+    /// How far from the origin along an axis anybody ever was, m.
+    pub widest: f64,
     mark: Option<Mark>,
     season: Option<Season>,
     signals: Vec<Aspect>,
@@ -159,8 +114,10 @@ pub(crate) struct Residents {
 }
 
 impl Residents {
-    /// Follows the scene; `region` is what is looked at of scenes that keep no account of what changes.
-    pub(crate) fn follow(&mut self, scene: &dyn Scene, region: &Aabb) {
+    /// Follows the scene; `region` is what is looked at of scenes that keep no account of what changes, and `demand` says what a batch may show of
+    /// bodies that move.
+    pub(crate) fn follow(&mut self, scene: &dyn Scene, region: &Aabb, demand: &Demand) {
+        self.wardrobe.begin();
         let repainted = self.looks.follow(scene);
         let season = scene.environment().season;
         if std::mem::replace(&mut self.season, season) != season {
@@ -187,7 +144,7 @@ impl Residents {
             });
         }
         self.mark = mark;
-        self.look_at(scene, &slots);
+        self.look_at(scene, &slots, demand, false);
         slots.clear();
         let named = |slot: &u32| (*slot, Some(self.names[*slot as usize]));
         if known && repainted {
@@ -202,7 +159,10 @@ impl Residents {
             self.signals = scene.signals().to_vec();
             slots.extend(self.signalling.iter().map(named));
         }
-        self.look_at(scene, &slots);
+        self.look_at(scene, &slots, demand, false);
+        slots.clear();
+        self.wardrobe.lacking(demand, &mut |slot| slots.push((slot, Some(self.names[slot as usize]))));
+        self.look_at(scene, &slots, demand, true);
         self.slots = slots;
         if std::mem::take(&mut self.resurfaced) {
             self.lay_out_surfaces();
@@ -252,20 +212,32 @@ impl Residents {
         self.layers.clear();
         self.models.clear();
         self.names = Arc::default();
-        self.free = NONE;
+        self.wardrobe.clear();
+        self.free = [NONE; 2];
         self.epoch += 1;
     }
 
-    /// Dresses who is in these slots now, by as many threads as that is worth.
-    fn look_at(&mut self, scene: &dyn Scene, slots: &[(u32, Option<EntityId>)]) {
+    /// Dresses who is in these slots now, by as many threads as that is worth; `again` says that nothing changed there, so that what is up to date of
+    /// whom stays.
+    fn look_at(
+        &mut self,
+        scene: &dyn Scene,
+        slots: &[(u32, Option<EntityId>)],
+        demand: &Demand,
+        again: bool,
+    ) {
+        if slots.is_empty() {
+            return;
+        }
         self.looks.learn(scene, slots.iter().filter_map(|(_, id)| *id));
         let count = threads::worth(slots.len(), SHARE);
-        let wide = slots.len().div_ceil(count).max(1);
-        let looks = &self.looks;
+        let wide = slots.len().div_ceil(count);
+        let (looks, heads, names, wardrobe) = (&self.looks, &self.heads[..], &self.names[..], &self.wardrobe);
+        let tailor = Tailor { looks, scene, demand, heads, names, wardrobe, again };
         let dressed = threads::each(slots.chunks(wide).collect(), |share| {
             let mut dressed = Dressed::default();
             for (slot, id) in share {
-                dressed.add(looks, scene, *slot, *id);
+                dressed.add(&tailor, *slot, *id);
             }
             dressed
         });
@@ -292,6 +264,7 @@ impl Residents {
             self.file_surface(body.slot, None);
             self.signalling.remove(&body.slot);
             self.restless.remove(&body.slot);
+            self.wardrobe.remove(body.slot);
             return self.cut(slot, NONE);
         };
         if self.names[slot] != there.id {
@@ -307,6 +280,18 @@ impl Residents {
         file(&mut self.signalling, there.kind == EntityKind::TrafficSignal);
         file(&mut self.restless, there.is_restless);
         self.file_surface(body.slot, parts.first().map(|(part, _)| part));
+        self.widest = self.widest.max(there.ball.center.coords.amax());
+        if self.wardrobe.holds(body.slot) != body.levels.is_some() {
+            // Its numbers are of the other sort.
+            self.cut(slot, NONE);
+        }
+        match body.levels {
+            Some(levels) => self.wardrobe.put(body.slot, there.ball, levels),
+            None => self.wardrobe.remove(body.slot),
+        }
+        if body.levels.is_some() && parts.is_empty() {
+            return self.keep_place(slot, there);
+        }
         self.fill(slot, there, parts);
     }
 
@@ -319,102 +304,6 @@ impl Residents {
             }
         } else if self.layers.remove(&slot).is_some() {
             self.resurfaced = true;
-        }
-    }
-
-    /// Gives the parts the numbers that the slot has, and more or fewer if there are more or fewer of them.
-    fn fill(&mut self, slot: usize, there: &There, parts: &[(Part, Instance)]) {
-        let mut last = NONE;
-        let mut number = self.heads[slot];
-        let (casts, grain) = (casts(there.kind), Grain::of(&there.ball));
-        for (index, (part, instance)) in (0..).zip(parts) {
-            if number == NONE {
-                number = self.take_number();
-                match self.cards.get_mut(last as usize) {
-                    Some(card) => card.next = number,
-                    None => self.heads[slot] = number,
-                }
-            }
-            let next = self.cards[number as usize].next;
-            let mut instance = *instance;
-            let is_surface = index == 0 && part.mesh.pattern().is_flat();
-            if let (true, Some(layer)) = (is_surface, self.layers.get(&(slot as u32))) {
-                instance.put_in_layer(*layer);
-            }
-            let card = &mut self.cards[number as usize];
-            let before = card.slot_there().map(|_| card.mesh);
-            let is_same = self.instances[number as usize] == instance
-                && self.grains[number as usize] == grain
-                && (card.mesh, card.slot, card.part) == (part.mesh, slot as u32, index)
-                && (card.casts, card.details) == (casts, part.details);
-            *card = Card {
-                mesh: part.mesh,
-                slot: slot as u32,
-                part: index,
-                casts,
-                mobile: there.kind.is_mobile(),
-                details: part.details,
-                next,
-            };
-            if before != Some(part.mesh) {
-                self.model_goes(before);
-                self.model_comes(part.mesh);
-            }
-            if !is_same {
-                self.instances[number as usize] = instance;
-                self.grains[number as usize] = grain;
-                self.note(number);
-                self.resurfaced |= is_surface;
-            }
-            let ball = there.ball;
-            self.grid.place(number, ball);
-            if ball.radius >= LEAST_WALL && is_closed(part.mesh) {
-                self.walls.place(number, ball);
-            } else {
-                self.walls.remove(number);
-            }
-            (last, number) = (number, next);
-        }
-        self.cut(slot, last);
-    }
-
-    /// Frees the instances of a slot behind `last`, or all of them.
-    fn cut(&mut self, slot: usize, last: u32) {
-        let start = match self.cards.get_mut(last as usize) {
-            Some(card) => std::mem::replace(&mut card.next, NONE),
-            None => std::mem::replace(&mut self.heads[slot], NONE),
-        };
-        let mut number = start;
-        while number != NONE {
-            self.grid.remove(number);
-            self.walls.remove(number);
-            self.note(number);
-            self.arrangement += 1;
-            let card = &mut self.cards[number as usize];
-            let before = card.slot_there().map(|_| card.mesh);
-            card.slot = NONE;
-            let next = std::mem::replace(&mut card.next, self.free);
-            self.model_goes(before);
-            self.free = number;
-            number = next;
-        }
-    }
-
-    /// Counts an instance in, if its mesh is a model.
-    fn model_comes(&mut self, mesh: Drawn) {
-        if let Drawn::Model(id) = mesh {
-            *self.models.entry(id).or_insert(0) += 1;
-        }
-    }
-
-    /// Counts an instance out that had this mesh, if that is a model.
-    fn model_goes(&mut self, mesh: Option<Drawn>) {
-        let Some(Drawn::Model(id)) = mesh else { return };
-        if let std::collections::btree_map::Entry::Occupied(mut count) = self.models.entry(id) {
-            *count.get_mut() -= 1;
-            if *count.get() == 0 {
-                count.remove();
-            }
         }
     }
 
@@ -439,32 +328,9 @@ impl Residents {
         fits.then(|| Block { center: instance.at(&Vector3::new(0.0, 0.0, half.z)).into(), half, turn })
     }
 
-    fn note(&mut self, number: u32) {
-        self.version += 1;
-        self.stamps[number as usize] = self.version;
-        self.changed.push(number);
-        self.recarded.push(number);
-    }
-
     /// The numbers of all instances, by slots and their parts.
     pub(crate) fn ordered(&self) -> impl Iterator<Item = u32> + '_ {
         (0..self.heads.len() as u32).flat_map(|slot| self.numbers_of(slot))
-    }
-
-    fn take_number(&mut self) -> u32 {
-        self.arrangement += 1;
-        if let Some(card) = self.cards.get_mut(self.free as usize) {
-            let number = self.free;
-            self.free = std::mem::replace(&mut card.next, NONE);
-            return number;
-        }
-        let mesh = Drawn::Own(crate::mesh::MeshId::Cuboid);
-        let card = Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, details: 0, next: NONE };
-        self.cards.push(card);
-        self.instances.push(bytemuck::Zeroable::zeroed());
-        self.grains.push(Grain::default());
-        self.stamps.push(0);
-        self.cards.len() as u32 - 1
     }
 }
 
@@ -473,7 +339,7 @@ impl Card {
     #[cfg(test)]
     pub(crate) const fn of(mesh: Drawn) -> Self {
         let details = crate::look::Detail::EVERY;
-        Self { mesh, slot: 0, part: 0, casts: true, mobile: false, details, next: NONE }
+        Self { mesh, slot: 0, part: 0, casts: true, mobile: false, details, nimble: false, next: NONE }
     }
 
     /// The slot of who has this number now, if anybody does.
@@ -482,6 +348,5 @@ impl Card {
     }
 }
 
-fn is_closed(mesh: Drawn) -> bool {
-    matches!(mesh, Drawn::Own(mesh) if mesh.closed().is_some())
-}
+#[cfg(test)]
+mod tests;

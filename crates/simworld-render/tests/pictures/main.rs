@@ -35,3 +35,4 @@ mod sensors_conform;
 mod streets_are_painted_by_their_lanes;
 mod two_sides;
 mod who_culls_changes_nothing;
+mod who_is_dressed_changes_nothing;
