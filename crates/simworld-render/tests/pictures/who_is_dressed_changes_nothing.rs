@@ -6,7 +6,7 @@ use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::environment::{Environment, Sun};
 use simworld_core::geometry::{Point3, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, Shape, World};
+use simworld_core::scene::{EntityKind, Scene as _, Shape, World};
 use simworld_core::seed::{Seed, StreamRng};
 use simworld_render::{
     Backend, Channels, Culling, Projection, RenderConfig, Renderer, ViewOptions, ViewRequest, Views,
