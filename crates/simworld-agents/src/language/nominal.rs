@@ -83,6 +83,14 @@ const WISHES: &Phrases = &Phrases::of(&[
 type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
 
 impl Parser<'_> {
+    /// Whether what stands there is an order in nouns: "a coffee, please".
+    pub(super) fn may_be_nominal(&mut self, start: usize) -> bool {
+        self.at = start;
+        let nominal = matches!(self.nominal(), Ok(Some(_)));
+        self.at = start;
+        nominal
+    }
+
     /// An order in nouns alone.
     pub(super) fn nominal(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;

@@ -113,6 +113,8 @@ impl Parser<'_> {
     fn order_without_verb(&mut self) -> Result<Vec<Clause>, PlanError> {
         const BEGINNINGS: &Phrases =
             &Phrases::of(&["to", "at", "the", "a", "an", "him", "her", "it", "towards"]);
+        const STATES: &[&str] =
+            &["its", "it is", "theres", "there is", "thats", "that is", "hes", "shes", "im", "theyre"];
         let refused = self.not_understood(UNDERSTOOD);
         let here = self.at;
         if let Some(clauses) = self.counted_deeds()? {
@@ -144,8 +146,6 @@ impl Parser<'_> {
         let is_phrase = moves || longest_phrase(self.rest(), BEGINNINGS).is_some();
         let start = self.at;
         // "..., it's chilly in there, then say thanks" tells, and is nothing to say.
-        const STATES: &[&str] =
-            &["its", "it is", "theres", "there is", "thats", "that is", "hes", "shes", "im", "theyre"];
         if matches!(verb, Verb::Say | Verb::Tell) && longest_phrase(self.rest(), STATES).is_some() {
             return Err(refused);
         }
@@ -176,14 +176,6 @@ impl Parser<'_> {
             }
             _ => true,
         }
-    }
-
-    /// Whether what stands there is an order in nouns: "a coffee, please".
-    fn may_be_nominal(&mut self, start: usize) -> bool {
-        self.at = start;
-        let nominal = matches!(self.nominal(), Ok(Some(_)));
-        self.at = start;
-        nominal
     }
 
     /// "Cross to the red bench" leads there; "cross the road" and "cross to the other side" lead across.

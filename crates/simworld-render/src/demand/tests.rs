@@ -42,8 +42,11 @@ fn balls(rng: &mut StreamRng, views: &[View]) -> Vec<Ball> {
         let away = Vector3::new(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-0.2, 0.2));
         let center = views[number % views.len()].eye + away * ops::pow(10.0, rng.uniform(-0.5, 3.2));
         // Some are of the very size from which on balls are large.
-        let radius =
-            if number % 7 == 0 { Detail::LARGE * rng.uniform(0.999, 1.001) } else { rng.uniform(0.4, 14.0) };
+        let radius = if number.is_multiple_of(7) {
+            Detail::LARGE * rng.uniform(0.999, 1.001)
+        } else {
+            rng.uniform(0.4, 14.0)
+        };
         Ball { center, radius }
     };
     (0..120).map(one).collect()

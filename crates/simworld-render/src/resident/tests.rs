@@ -150,7 +150,9 @@ fn few_instances_change_and_they_lie_together() {
     let everything = residents.ordered().count();
     let mut heads: Vec<u32> = Vec::new();
     for step in 0..8 {
-        ids.iter().for_each(|id| shift(&mut world, &mut rng, *id));
+        for id in &ids {
+            shift(&mut world, &mut rng, *id);
+        }
         world.finish_step();
         residents.changed.clear();
         let demand = demand(&mut rng, 900.0, if step == 5 { 1 } else { 6 }, step != 5);

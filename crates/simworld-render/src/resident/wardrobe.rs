@@ -60,12 +60,11 @@ impl Wardrobe {
             self.places.resize(index + 1, NONE);
         }
         let clad = Clad { slot, levels, ball, round: self.round };
-        match self.list.get_mut(self.places[index] as usize) {
-            Some(place) => *place = clad,
-            None => {
-                self.places[index] = self.list.len() as u32;
-                self.list.push(clad);
-            }
+        if let Some(place) = self.list.get_mut(self.places[index] as usize) {
+            *place = clad;
+        } else {
+            self.places[index] = self.list.len() as u32;
+            self.list.push(clad);
         }
     }
 

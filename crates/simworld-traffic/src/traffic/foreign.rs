@@ -169,16 +169,13 @@ impl Finder {
                     let (back, front) = (near.station - reach, near.station + reach);
                     let aside = near.distance - reach;
                     let across = (near.lateral - reach, near.lateral + reach);
-                    match obstacles[first..].iter_mut().find(|other| other.track == track) {
-                        Some(own) => {
-                            (own.near, own.far) = (own.near.min(back), own.far.max(front));
-                            own.aside = own.aside.min(aside);
-                            own.reach = (own.reach.0.min(across.0), own.reach.1.max(across.1));
-                        }
-                        None => {
-                            let found = body.on(tracks, track, (back, front), aside);
-                            obstacles.push(Obstacle { reach: across, ..found });
-                        }
+                    if let Some(own) = obstacles[first..].iter_mut().find(|other| other.track == track) {
+                        (own.near, own.far) = (own.near.min(back), own.far.max(front));
+                        own.aside = own.aside.min(aside);
+                        own.reach = (own.reach.0.min(across.0), own.reach.1.max(across.1));
+                    } else {
+                        let found = body.on(tracks, track, (back, front), aside);
+                        obstacles.push(Obstacle { reach: across, ..found });
                     }
                 }
             }

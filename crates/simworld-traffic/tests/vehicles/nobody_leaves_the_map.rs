@@ -30,7 +30,8 @@ fn who_turns_at_random_does_not_take_the_way_out() {
     let is_out = |lane: u32| out.contains(&network.lanes[lane as usize].road.0);
     assert!((0..network.lanes.len() as u32).any(is_out), "the way out is part of the network");
     let config = TrafficConfig { vehicles: 60, pedestrians: 0, ..TrafficConfig::default() };
-    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(3)).expect("the settings are in range");
+    let mut traffic =
+        Traffic::new(Arc::clone(&network), &config, Seed(3)).expect("the settings are in range");
     assert_eq!(traffic.placed().vehicles, 60);
     for step in 0..6000 {
         traffic.step(0.1);
