@@ -14,8 +14,8 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs,
-    respelt, retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
+    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked, repairs,
+    respelt, retold, rows, sells_both, slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -180,6 +180,7 @@ fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     margins::in_plain_words(lexemes);
+    remarked::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
@@ -190,6 +191,7 @@ fn put_plainly(
     retold::in_plain_words(lexemes);
     slips::correct(words, lexemes, names, stock, streets);
     spared::in_plain_words(lexemes);
+    sells_both::in_plain_words(lexemes, names);
     phrased::in_plain_words(words, lexemes, names);
     narrowed::in_plain_words(lexemes);
     plain::in_plain_words(words, lexemes, names);
