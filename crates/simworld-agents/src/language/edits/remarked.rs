@@ -17,9 +17,10 @@ use super::words::VERBS;
 /// Turns of phrase that would be misunderstood, in the notation of [`super::turns`].
 #[rustfmt::skip]
 const EARLY: &Turns = &[
-    ("N here|there|- , it|this|that|he|she|they must|should|shall|can|may|could|has|have|needs|need|ought to|- go|disappear|vanish|leave away|now|-", "remove N"),
-    ("P way|much|far|lots|- bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- times D", "P D times as big"),
-    ("P way|much|far|lots bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "P D times as big"),
+    ("id|wed|i|we|- would|- love|like|want N a|- way|much|far|lots|lot|- bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- times D", "make N D times as big"),
+    ("id|wed|i|we|- would|- love|like|want N a|- way|much|far|lots|lot bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "make N D times as big"),
+    ("P a|- way|much|far|lots|lot|- bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- times D", "P D times as big"),
+    ("P a|- way|much|far|lots|lot bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "P D times as big"),
 ];
 /// What is told of first, and "it" in the order behind it.
 #[rustfmt::skip]
@@ -37,6 +38,13 @@ const SO: &Phrases = &Phrases::of(&["so", "too", "far too", "very", "rather", "q
 #[rustfmt::skip]
 const BARE: &[&str] = &["bare", "empty", "dull", "boring", "lonely", "sad", "drab", "bleak", "naked", "plain", "dreary", "dead", "lifeless", "deserted", "ugly", "gloomy", "barren", "desolate", "dismal", "unfriendly", "unwelcoming", "forlorn", "abandoned", "shabby"];
 const OVER: &[&str] = &["down", "over", "up", "out", "around", "round", "right", "back", "in"];
+/// What may stand before a noun, and says nothing that has to be known.
+const LOOKS: &Phrases =
+    &Phrases::of(&["old", "ugly", "stupid", "silly", "rusty", "shabby", "awful", "horrible"]);
+#[rustfmt::skip]
+const MUST: &Phrases = &Phrases::of(&["must", "should", "shall", "can", "may", "could", "has to", "have to", "had better", "needs to", "need to", "ought to"]);
+#[rustfmt::skip]
+const VANISHES: &Phrases = &Phrases::of(&["go", "disappear", "vanish", "leave", "go away", "go now", "disappear now", "leave now"]);
 /// Before a reason that stands behind a mark.
 #[rustfmt::skip]
 const REASONS: &Phrases = &Phrases::of(&["since", "because", "as", "cause", "cos", "coz", "seeing that", "seeing as", "given that", "now that"]);
@@ -50,7 +58,7 @@ const WILL: &Phrases = &Phrases::of(&["that should", "that will", "that would", 
 /// Behind that, how something is to be.
 #[rustfmt::skip]
 const TO_BE: &[&str] = &["be", "go", "stand", "sit", "hang", "face", "have", "get", "become", "come", "move", "turn", "point", "look", "stay", "remain", "disappear", "vanish", "leave", "match", "need", "not", "also", "then", "belong", "cost", "measure", "wear"];
-const ITS: &Phrases = &Phrases::of(&["it", "that", "this", "they", "black", "it just", "it simply", "it really"]);
+const ITS: &Phrases = &Phrases::of(&["it", "that", "this", "they", "it just", "it simply", "it really"]);
 #[rustfmt::skip]
 const SUITS: &Phrases = &Phrases::of(&["suits", "suit", "flatters", "becomes", "complements", "fits in", "fits better", "fits the", "goes with", "goes better with", "goes well with", "goes nicely with", "blends in", "blends", "works better", "looks better", "looks nicer", "looks smarter", "matches"]);
 /// Before what happened, in front of an order.
@@ -77,6 +85,7 @@ const MOST: usize = 2;
 /// Leaves out how a place looks, and puts plainly what would be misunderstood.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     without_looks(lexemes);
+    gone_by_pronoun(lexemes);
     *lexemes = told_by(lexemes, &[EARLY]);
 }
 
@@ -105,6 +114,33 @@ pub(super) fn without(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexem
     without_open(&mut kept);
     let is_left = kept.iter().any(|lexeme| !is_mark(lexeme));
     (is_left && kept.len() < lexemes.len()).then_some(kept)
+}
+
+/// "This scooter here, he must disappear": the order to remove it. A clause that says more than what is meant is left as it is.
+fn gone_by_pronoun(lexemes: &mut Vec<Lexeme>) {
+    let begins = |at: &usize| *at == 0 || lexemes[at - 1].token == Token::Break;
+    let found = (0..lexemes.len()).filter(begins).find_map(|from| {
+        let noun = plain_noun(&lexemes[from..])?;
+        let here = from + noun + longest_phrase(&lexemes[from + noun..], &["here", "there"]).unwrap_or(0);
+        lexemes.get(here).filter(|mark| mark.token == Token::Comma)?;
+        let who = here + 1 + longest_phrase(&lexemes[here + 1..], &["it", "he", "she", "they"])?;
+        let must = who + longest_phrase(&lexemes[who..], MUST)?;
+        let goes = must + longest_phrase(&lexemes[must..], VANISHES)?;
+        lexemes.get(goes).is_none_or(is_mark).then_some((from, from + noun, goes))
+    });
+    if let Some((from, noun, end)) = found {
+        lexemes.drain(noun..end);
+        let remove = word_at(&lexemes[from], "remove");
+        lexemes.insert(from, remove);
+    }
+}
+
+/// How many words name a certain thing by its class, with its colour at most.
+fn plain_noun(lexemes: &[Lexeme]) -> Option<usize> {
+    let mut at = longest_phrase(lexemes, &["the", "this", "that", "my", "our", "these", "those"])?;
+    at += longest_phrase(&lexemes[at..], LOOKS).unwrap_or(0);
+    at += longest(&lexemes[at..], PAINTS).map_or(0, |(_, words)| words);
+    category(&lexemes[at..]).map(|(_, words)| at + words)
 }
 
 /// "..., it looks so bare down there", behind something else.
@@ -176,11 +212,11 @@ fn is_painted(rest: &[Lexeme]) -> bool {
 /// Whether nothing is asked for, and something is said.
 fn is_idle(rest: &[Lexeme]) -> bool {
     let orders = |at: usize| {
-        let is_joined = at == 0 || matches!(word(rest, at - 1), "and" | "then" | "so");
-        is_joined && longest(&rest[at..], &VERBS).is_some() && at > 0
+        at > 0
+            && matches!(word(rest, at - 1), "and" | "then" | "so")
+            && longest(&rest[at..], &VERBS).is_some()
     };
-    !rest.is_empty()
-        && !(0..rest.len()).any(|at| longest_phrase(&rest[at..], ASKS).is_some() || orders(at))
+    !rest.is_empty() && !(0..rest.len()).any(|at| longest_phrase(&rest[at..], ASKS).is_some() || orders(at))
 }
 
 /// "After that burglary": what happened, and no place.
@@ -232,8 +268,12 @@ mod tests {
             ("plant a pine by the oak, it looks so bare down there", "plant a pine by the oak"),
             ("this scooter here, he must disappear, thank you", "remove this scooter"),
             ("the statue, it has to go", "remove the statue"),
-            ("would love the postbox way bigger, like times three", "would love the postbox three times as big"),
-            ("put a bench there, it looks so red down there", "put a bench there , it looks so red down there"),
+            ("would love the postbox way bigger, like times three", "make the postbox three times as big"),
+            (
+                "put a bench there, it looks so red down there",
+                "put a bench there , it looks so red down there",
+            ),
+            ("that bench is ugly, it has to go", "that bench is ugly , it has to go"),
             ("the statue, it must go to the oak", "the statue , it must go to the oak"),
         ] {
             assert_eq!(rewritten(said, in_plain_words), meant, "{said}");
