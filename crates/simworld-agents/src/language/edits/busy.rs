@@ -46,7 +46,7 @@ pub(super) fn in_plain_words(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::{lex, rewritten};
+    use super::super::super::lexer::{Lexeme, lex, rewritten};
     use super::in_plain_words;
 
     #[test]
@@ -55,7 +55,7 @@ mod tests {
             ("four joggers should be warming up near the lamp", "add four joggers near the lamp"),
             ("five children should be playing near the fountain", "add five children near the fountain"),
         ] {
-            let told = |lexemes: &mut Vec<_>| *lexemes = in_plain_words(lexemes).unwrap();
+            let told = |lexemes: &mut Vec<Lexeme>| *lexemes = in_plain_words(lexemes).unwrap();
             assert_eq!(rewritten(said, told), meant, "{said}");
         }
         for said in ["two benches should be red near the lamp", "two benches should be facing the lamp"] {

@@ -24,6 +24,7 @@ const LASTLY: &Turns = &[
     ("O list|show|name|tell|give me|us|- every|each|all|any|- the|- shop|shops|store|stores that|which|- sells|sell|offers|offer|serves|serve B", "list the shops that sell B"),
     ("how many buildings|places|houses|spots that|which|- sell|sells|offer|offers|serve|serves B", "how many buildings that sell B are there"),
     ("O count the|all|- buildings|places|houses|spots that|which|- sell|sells|offer|offers|serve|serves B", "how many buildings that sell B are there"),
+    ("be a|an dear|angel|darling|sweetheart|love|star|sport|pal|saint and P", "P"),
     // New things that somebody would be glad of, or sorry to be without.
     ("it|that would|might be a|such|- a|- shame|pity|crime|sin|waste not to|- to|not have|see|put|get|add|build D A", "add D A"),
     ("A would|might thank us|me|you|everybody|everyone for D B W", "add D B W"),

@@ -266,7 +266,7 @@ mod tests {
     fn what_would_be_misunderstood_is_put_plainly() {
         for (said, meant) in [
             ("plant a pine by the oak, it looks so bare down there", "plant a pine by the oak"),
-            ("this scooter here, he must disappear, thank you", "remove this scooter"),
+            ("this scooter here, he must disappear, thank you", "remove this scooter , thank you"),
             ("the statue, it has to go", "remove the statue"),
             ("would love the postbox way bigger, like times three", "make the postbox three times as big"),
             (
