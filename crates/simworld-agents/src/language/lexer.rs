@@ -68,6 +68,8 @@ pub(super) fn tokens(text: &str) -> impl Iterator<Item = (Token, usize, usize)> 
                 (Some(found.0), found.1)
             } else if let Some(found) = number(rest, follows_word(text, at)) {
                 (Some(found.0), found.1)
+            } else if let Some(found) = half_of_day(text, at) {
+                (Some(found.0), found.1)
             } else if first.is_alphanumeric() {
                 let (word, length) = word(rest);
                 (Some(Token::Word(word)), length)
@@ -145,6 +147,24 @@ fn number(text: &str, follows_word: bool) -> Option<(Token, usize)> {
     let value: f64 = text[signed..signed + length].parse().ok()?;
     let value = if matches!(sign, Some('-' | '−')) { -value } else { value };
     Some((Token::Number(value), signed + length))
+}
+
+/// "p.m.", "a.m": one word, in which a full stop ends no sentence, unless it is the last and another sentence begins behind it.
+fn half_of_day(text: &str, at: usize) -> Option<(Token, usize)> {
+    const LETTERS: usize = "p.m".len();
+    let [first, b'.', second, ..] = text.as_bytes().get(at..)? else { return None };
+    let word = match (first.to_ascii_lowercase(), second.to_ascii_lowercase()) {
+        (b'a', b'm') => "am",
+        (b'p', b'm') => "pm",
+        _ => return None,
+    };
+    let behind = text.get(at + LETTERS..)?;
+    let is_inside_word = text[..at].chars().next_back().is_some_and(char::is_alphabetic)
+        || behind.starts_with(char::is_alphanumeric);
+    let goes_on = behind
+        .strip_prefix('.')
+        .is_some_and(|rest| rest.trim_start().starts_with(|next: char| !next.is_uppercase()));
+    (!is_inside_word).then(|| (Token::Word(word.to_owned()), LETTERS + usize::from(goes_on)))
 }
 
 /// Whether the text begins with just that word.
@@ -228,6 +248,23 @@ mod tests {
                 Token::Break
             ]
         );
+    }
+
+    #[test]
+    fn a_full_stop_within_half_of_a_day_ends_nothing() {
+        let words = |text: &str| {
+            let words = tokens(text).into_iter().map(|token| match token {
+                Token::Word(word) => word,
+                Token::Number(number) => number.to_string(),
+                _ => ".".to_owned(),
+            });
+            words.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(words("at 6 a.m. sharp"), "at 6 am sharp");
+        assert_eq!(words("11P.M, please"), "11 pm . please");
+        assert_eq!(words("make it 11 p.m. Go home."), "make it 11 pm . go home .");
+        assert_eq!(words("make it 11 p.m."), "make it 11 pm .");
+        assert_eq!(words("spa.made a.man"), "spa . made a . man");
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod edits_are_composed;
 mod edits_are_judged;
 mod edits_are_measured;
 mod edits_are_put_right;
+mod edits_are_remarked_on;
 mod edits_are_taken_back;
 mod edits_are_told_along;
 mod edits_by_policy;

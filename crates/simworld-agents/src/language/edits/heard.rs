@@ -14,8 +14,8 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, repairs,
-    respelt, retold, rows, slips, spared, spoken, talk, view_of, which, whole, wording,
+    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked,
+    repairs, respelt, retold, rows, sells_both, slips, spared, spoken, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -40,7 +40,11 @@ pub(crate) fn read(
         return read;
     }
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
-    if ear.is_granted(&read) { read } else { ear.in_other_words(&heard, read) }
+    if ear.is_granted(&read) {
+        return read;
+    }
+    let read = ear.in_other_words(&heard, read);
+    if ear.is_granted(&read) { read } else { ear.with_what_is_named(&heard, read) }
 }
 
 /// A sentence, and the scene in which it is heard.
@@ -172,6 +176,39 @@ impl Ear<'_> {
     }
 }
 
+impl Ear<'_> {
+    /// "The windmill looks shabby, paint it white": that there is no windmill, where nothing is there that "it" could stand for.
+    fn with_what_is_named(
+        &self,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let named = remarked::with_what_is_named(heard);
+        if named.len() == heard.len() || !self.stands_for_nothing(&read) {
+            return read;
+        }
+        let anew = self.read(named);
+        let is_missing = match &anew {
+            Ok(reading) => self.is_missing(reading),
+            Err(refused) => matches!(refused, EditError::NotFound { .. }),
+        };
+        if is_missing { anew } else { read }
+    }
+
+    /// Whether a sentence is refused because nothing is there that its pronoun could stand for.
+    fn stands_for_nothing(&self, read: &Result<Reading, EditError>) -> bool {
+        let Self { scene, stock, focus, .. } = *self;
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let is_open = |refused: &EditError| matches!(refused, EditError::NotFound { wanted, .. } if wanted.contains("could stand for"));
+        match read {
+            Ok(reading) => reading.wishes.first().is_some_and(|readings| {
+                readings.iter().all(|wish| finder.edits(wish).is_err_and(|refused| is_open(&refused)))
+            }),
+            Err(refused) => is_open(refused),
+        }
+    }
+}
+
 /// Puts the words of a sentence plainly, one thing at a time, before it is read.
 fn put_plainly(
     words: &str,
@@ -180,6 +217,7 @@ fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     margins::in_plain_words(lexemes);
+    remarked::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
@@ -190,6 +228,7 @@ fn put_plainly(
     retold::in_plain_words(lexemes);
     slips::correct(words, lexemes, names, stock, streets);
     spared::in_plain_words(lexemes);
+    sells_both::in_plain_words(lexemes, names);
     phrased::in_plain_words(words, lexemes, names);
     narrowed::in_plain_words(lexemes);
     plain::in_plain_words(words, lexemes, names);

@@ -13,13 +13,28 @@ use super::forms::{word, word_at, words_at};
 use super::retold::{Turns, told_by};
 use super::stood::point_at;
 use super::words::{VERBS, Verb};
-use super::{Focus, misspelt, said_beside, slips};
+use super::{Focus, busy, misspelt, remarked, said_beside, slips};
 use crate::editing::Stock;
 
 /// Turns of phrase and what they mean, of one sentence each.
 #[rustfmt::skip]
 const LASTLY: &Turns = &[
+    // What sells something.
+    ("O list|show|name|tell|give me|us|- every|each|all|any|- the|- building|buildings|place|places|house|houses|anywhere|spot|spots|everything that|which|where|- you|they|people|one|i|we|- can|could|- sells|sell|buy|get|find|offers|offer|serves|serve B", "list the buildings that sell B"),
+    ("O list|show|name|tell|give me|us|- every|each|all|any|- the|- shop|shops|store|stores that|which|- sells|sell|offers|offer|serves|serve B", "list the shops that sell B"),
+    ("how many buildings|places|houses|spots that|which|- sell|sells|offer|offers|serve|serves B", "how many buildings that sell B are there"),
+    ("O count the|all|- buildings|places|houses|spots that|which|- sell|sells|offer|offers|serve|serves B", "how many buildings that sell B are there"),
+    ("be a|an dear|angel|darling|sweetheart|love|star|sport|pal|saint and P", "P"),
+    // New things that somebody would be glad of, or sorry to be without.
+    ("it|that would|might be a|such|- a|- shame|pity|crime|sin|waste not to|- to|not have|see|put|get|add|build D A", "add D A"),
+    ("A would|might thank us|me|you|everybody|everyone for D B W", "add D B W"),
+    ("A would|might surely|certainly|really|- appreciate|welcome D B W", "add D B W"),
     // Where somebody or something is to be.
+    ("mister|mr|mrs|miss|ms A , he|she must|should|shall|has|have|needs|wants to|- go|come|walk|move|run|- and|to|- be|stand|go|sit|wait|stay|- over|down|right|- W", "move A W"),
+    ("N , it|he|she|they must|should|shall|has|have|needs|wants to|- go|come|walk|move|run|- and|to|- be|stand|go|sit|wait|stay|- over|down|right|- W", "move N W"),
+    // Farewells.
+    ("K H , bye|goodbye|farewell|adios bye|-", "remove the K H"),
+    ("N , bye|goodbye|farewell|adios bye|-", "remove N"),
     ("O he belongs|goes|should|must|shall|wants|has|ought|needs to|- be|stand|go|sit|wait|stay|come|move|belong|live|- over|down|right|- W", "O move him W"),
     ("O she belongs|goes|should|must|shall|wants|has|ought|needs to|- be|stand|go|sit|wait|stay|come|move|belong|live|- over|down|right|- W", "O move her W"),
     ("O it|that|this belongs|goes|should|must|shall|wants|has|ought|needs to|- be|stand|go|sit|stay|come|move|belong|live|- over|down|right|- W", "O move it W"),
@@ -154,8 +169,11 @@ pub(super) fn ways(
     let unspelt = told_by(heard, &[LASTLY]);
     let is_unspelt = !is_same(&unspelt, heard);
     let rest = beside.as_deref().or(named.as_deref()).map(|rest| told_by(rest, &[LASTLY]));
+    let remarked = remarked::without(&plain, names).or_else(|| remarked::without(heard, names));
+    let told_besides = remarked.as_deref().map(|rest| told_by(rest, &[LASTLY]));
+    let busy = busy::in_plain_words(heard).or_else(|| busy::in_plain_words(&plain));
     let ways = sounded.into_iter().chain(placed).chain(is_told.then_some(told));
-    let ways = ways.chain(is_unspelt.then_some(unspelt));
+    let ways = ways.chain(is_unspelt.then_some(unspelt)).chain(busy).chain(remarked).chain(told_besides);
     ways.chain(beside).chain(named).chain(rest).collect()
 }
 

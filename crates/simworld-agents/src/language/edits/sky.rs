@@ -232,6 +232,10 @@ pub(in crate::language) fn hour(lexemes: &[Lexeme]) -> Option<(Sky, usize)> {
             hour -= 12.0;
         }
     }
+    // "6 am sharp", and "sharp" behind a bare number is no time.
+    if !is_bare(lexemes, at) {
+        at += longest_phrase(&lexemes[at..], &["sharp", "on the dot"]).unwrap_or(0);
+    }
     (0.0..=24.0).contains(&hour).then_some((Sky::Hour(hour % 24.0), at))
 }
 

@@ -245,7 +245,7 @@ const WAY_ROWS: &[(&[&str], Way)] = &[
         "to town", "into the scene", "at some place", "where there is room", "where there is space",
         "wherever there is room", "wherever there is space", "wherever it fits", "where it fits", "somewhere free",
         "on the quay", "at the quay", "on the quayside", "around the harbour", "in the quarter", "around the quarter", "on the waterfront", "to the campus", "on the campus", "somewhere on campus", "on campus", "in the harbour", "in the old town",
-        "anywhere on campus", "anywhere you please", "where you please", "wherever you please", "where you think best", "wherever you think best", "where you see fit", "wherever you see fit", "out of frame", "somewhere around", "wherever theres room", "wherever theres space", "anywhere in it", "anywhere inside it", "anywhere in there", "anywhere there", "somewhere in it", "wherever in it"], Way::Anywhere),
+        "anywhere on campus", "anywhere you please", "wherever you fancy", "anywhere you fancy", "where you fancy", "wherever you feel like", "where you please", "wherever you please", "where you think best", "wherever you think best", "where you see fit", "wherever you see fit", "out of frame", "somewhere around", "wherever theres room", "wherever theres space", "anywhere in it", "anywhere inside it", "anywhere in there", "anywhere there", "somewhere in it", "wherever in it"], Way::Anywhere),
 ];
 
 /// Sides of what was spoken of, or of who speaks.
