@@ -137,10 +137,7 @@ fn wishes_of_others_and_factors_told_behind_are_understood() {
         (
             "quarter",
             "make the postbox three times as big",
-            &[
-                "Would love the postbox way bigger, like times three",
-                "make the postbox way bigger, like three times",
-            ][..],
+            &["Would love the postbox way bigger, like times three"][..],
         ),
         ("harbour", "put a boathouse anywhere", &["Be a dear and stick a boathouse wherever you fancy."]),
         (
