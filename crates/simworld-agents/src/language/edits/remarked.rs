@@ -267,7 +267,7 @@ mod tests {
         for (said, meant) in [
             ("plant a pine by the oak, it looks so bare down there", "plant a pine by the oak"),
             ("this scooter here, he must disappear, thank you", "remove this scooter , thank you"),
-            ("the statue, it has to go", "remove the statue"),
+            ("the bench, it has to go", "remove the bench"),
             ("would love the postbox way bigger, like times three", "make the postbox three times as big"),
             (
                 "put a bench there, it looks so red down there",
