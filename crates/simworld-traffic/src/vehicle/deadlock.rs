@@ -99,11 +99,7 @@ impl VehicleManager {
         lane: Track,
         first: &Vehicle,
     ) -> Option<Track> {
-        if first.next >= EXIT
-            || first.holding == first.next
-            || first.halt.is_finite()
-            || first.stood <= LOCKED
-        {
+        if !has_long_waited(first) {
             return None;
         }
         let half_changed = || self.who_changes_before(tracks, lane, first);
@@ -162,12 +158,12 @@ impl VehicleManager {
         config: &TrafficConfig,
         first: &Vehicle,
     ) -> Option<Track> {
-        if first.next >= EXIT || first.holding == first.next || first.halt.is_finite() {
+        if !has_long_waited(first) {
             return None;
         }
         let after = tracks.lane_after(first.next as usize);
         let stands = self.queue(tracks, after).last().is_some_and(|last| last.v < STANDING);
-        let is_stuck = first.stood > LOCKED && stands && !self.has_room(tracks, config, first.next, first);
+        let is_stuck = stands && !self.has_room(tracks, config, first.next, first);
         is_stuck.then_some(after)
     }
 
@@ -235,6 +231,11 @@ impl VehicleManager {
         let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
         self.goal(tracks, lane, 0).is_none_or(|goal| self.closures.quickest(tracks, after, goal).is_some())
     }
+}
+
+/// Whether the first of a lane has long stood without leave for the way that it wants.
+fn has_long_waited(first: &Vehicle) -> bool {
+    first.next < EXIT && first.holding != first.next && !first.halt.is_finite() && first.stood > LOCKED
 }
 
 #[cfg(test)]

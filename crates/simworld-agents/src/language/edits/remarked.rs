@@ -11,7 +11,8 @@ use super::super::numbers;
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::forms::{word, word_at};
-use super::retold::{Turns, last_mark, told_by};
+use super::retold::{Turns, told_by};
+use super::said_beside::without_last;
 use super::words::VERBS;
 
 /// Turns of phrase that would be misunderstood, in the notation of [`super::turns`].
@@ -79,8 +80,6 @@ const OPENED: &[&str] = &["laptop", "book", "notebook", "umbrella", "parasol", "
 const LONGEST_CAUSE: usize = 7;
 /// A reason takes no fewer.
 const SHORTEST_REASON: usize = 3;
-/// So many remarks are left out.
-const MOST: usize = 2;
 
 /// Leaves out how a place looks, and puts plainly what would be misunderstood.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
@@ -97,14 +96,7 @@ pub(super) fn with_what_is_named(lexemes: &[Lexeme]) -> Vec<Lexeme> {
 /// A sentence without such remarks, if there are any.
 pub(super) fn without(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
     let mut kept = lexemes.to_vec();
-    for _ in 0..MOST {
-        let end = last_mark(&kept);
-        if let Some(mark) = kept[..end].iter().rposition(is_mark)
-            && is_remark(&kept[mark + 1..end])
-        {
-            kept.drain(mark..end);
-        }
-    }
+    without_last(&mut kept, is_remark);
     if let Some(mark) = kept.iter().position(|lexeme| lexeme.token == Token::Comma)
         && is_cause(&kept[..mark], names)
         && is_order(&kept[mark + 1..])

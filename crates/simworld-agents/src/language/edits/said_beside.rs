@@ -60,17 +60,22 @@ const LONG: usize = 8;
 /// So many remarks are left out at each end.
 const MOST: usize = 2;
 
+/// Leaves out the last clauses that are such remarks.
+pub(super) fn without_last(lexemes: &mut Vec<Lexeme>, is_remark: impl Fn(&[Lexeme]) -> bool) {
+    for _ in 0..MOST {
+        let end = last_mark(lexemes);
+        if let Some(mark) = lexemes[..end].iter().rposition(is_mark)
+            && is_remark(&lexemes[mark + 1..end])
+        {
+            lexemes.drain(mark..end);
+        }
+    }
+}
+
 /// A sentence without such remarks at its end and its beginning, if there are any.
 pub(super) fn without(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let mut kept = lexemes.to_vec();
-    for _ in 0..MOST {
-        let end = last_mark(&kept);
-        if let Some(mark) = kept[..end].iter().rposition(is_mark)
-            && is_remark(&kept[mark + 1..end])
-        {
-            kept.drain(mark..end);
-        }
-    }
+    without_last(&mut kept, is_remark);
     for _ in 0..MOST {
         let end = last_mark(&kept);
         if let Some(mark) = kept[..end].iter().position(is_mark)
