@@ -184,8 +184,8 @@ impl Slabs {
         let start = self.vehicles.len();
         let end = start + room(size);
         if end > self.vehicles.capacity() {
-            // By an eighth, not by half: what is spare is spare for every vehicle of the city.
-            let more = (start / 8).max(room(size)).max(16);
+            // By a sixteenth, not by half: what is spare is spare for every vehicle of the city.
+            let more = (start / 16).max(room(size)).max(16);
             self.vehicles.reserve_exact(more);
             self.paths.reserve_exact(more);
         }

@@ -15,7 +15,8 @@ use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
     lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked,
-    repairs, respelt, retold, rows, sells_both, slips, spared, spoken, talk, view_of, which, whole, wording,
+    repairs, respelt, retold, rows, sells_both, slips, spared, spoken, statements, talk, view_of, which,
+    whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -216,6 +217,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    statements::leave_out_early(words, lexemes, names);
     margins::in_plain_words(lexemes);
     remarked::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);

@@ -13,12 +13,15 @@ use super::forms::{word, word_at, words_at};
 use super::retold::{Turns, told_by};
 use super::stood::point_at;
 use super::words::{VERBS, Verb};
-use super::{Focus, busy, misspelt, remarked, said_beside, slips};
+use super::{Focus, busy, misspelt, remarked, said_beside, slips, statements};
 use crate::editing::Stock;
 
 /// Turns of phrase and what they mean, of one sentence each.
 #[rustfmt::skip]
 const LASTLY: &Turns = &[
+    ("O close|shut|block all of A", "O close A"),
+    ("O open|reopen all of A", "O open A"),
+    ("W ,|- D A is|are to be installed|placed|built|planted|erected|added|parked|provided|set up|-", "put D A W"),
     // What sells something.
     ("O list|show|name|tell|give me|us|- every|each|all|any|- the|- building|buildings|place|places|house|houses|anywhere|spot|spots|everything that|which|where|- you|they|people|one|i|we|- can|could|- sells|sell|buy|get|find|offers|offer|serves|serve B", "list the buildings that sell B"),
     ("O list|show|name|tell|give me|us|- every|each|all|any|- the|- shop|shops|store|stores that|which|- sells|sell|offers|offer|serves|serve B", "list the shops that sell B"),
@@ -174,7 +177,9 @@ pub(super) fn ways(
     let busy = busy::in_plain_words(heard).or_else(|| busy::in_plain_words(&plain));
     let ways = sounded.into_iter().chain(placed).chain(is_told.then_some(told));
     let ways = ways.chain(is_unspelt.then_some(unspelt)).chain(busy).chain(remarked).chain(told_besides);
-    ways.chain(beside).chain(named).chain(rest).collect()
+    let stated = statements::without(heard, names);
+    let stated_otherwise = stated.clone().into_iter().map(|way| told_by(&way, &[LASTLY]));
+    ways.chain(beside).chain(named).chain(rest).chain(stated).chain(stated_otherwise).collect()
 }
 
 fn is_same(one: &[Lexeme], other: &[Lexeme]) -> bool {

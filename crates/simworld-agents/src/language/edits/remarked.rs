@@ -22,6 +22,10 @@ const EARLY: &Turns = &[
     ("id|wed|i|we|- would|- love|like|want N a|- way|much|far|lots|lot bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "make N D times as big"),
     ("P a|- way|much|far|lots|lot|- bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- times D", "P D times as big"),
     ("P a|- way|much|far|lots|lot bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "P D times as big"),
+    // What a sentence singles out is what it goes on about.
+    ("W , line up D A", "line up D A W"),
+    ("which|what things|objects|items are K", "list everything that is K"),
+    ("its N that|which|who A , so|- please|- B it|him|her C", "B N C"),
 ];
 /// What is told of first, and "it" in the order behind it.
 #[rustfmt::skip]
@@ -128,7 +132,7 @@ fn gone_by_pronoun(lexemes: &mut Vec<Lexeme>) {
 }
 
 /// How many words name a certain thing by its class, with its colour at most.
-fn plain_noun(lexemes: &[Lexeme]) -> Option<usize> {
+pub(super) fn plain_noun(lexemes: &[Lexeme]) -> Option<usize> {
     let mut at = longest_phrase(lexemes, &["the", "this", "that", "my", "our", "these", "those"])?;
     at += longest_phrase(&lexemes[at..], LOOKS).unwrap_or(0);
     at += longest(&lexemes[at..], PAINTS).map_or(0, |(_, words)| words);
