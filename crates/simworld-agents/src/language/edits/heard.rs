@@ -14,8 +14,9 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked,
-    repairs, respelt, retold, rows, sells_both, slips, spared, spoken, talk, view_of, which, whole, wording,
+    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, periphrases, phrased, plain,
+    remarked, repairs, respelt, retold, rows, sells_both, slips, spared, spoken, talk, view_of, which, whole,
+    wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -222,6 +223,7 @@ fn put_plainly(
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
     respelt::in_plain_spelling(words, lexemes);
+    periphrases::in_plain_words(lexemes);
     talk::in_plain_words(words, lexemes, names);
     doubted::in_plain_words(lexemes);
     casual::in_plain_words(lexemes);

@@ -59,6 +59,7 @@ mod parse;
 mod parts;
 mod passage;
 mod passing;
+mod periphrases;
 mod phrased;
 mod places;
 mod plain;
@@ -391,6 +392,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(topics::words())
         .chain(originals::words())
         .chain(texts::words())
+        .chain(periphrases::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.
