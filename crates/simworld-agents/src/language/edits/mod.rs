@@ -61,6 +61,7 @@ mod passage;
 mod passing;
 mod periphrases;
 mod phrased;
+mod placed;
 mod places;
 mod plain;
 mod polite;

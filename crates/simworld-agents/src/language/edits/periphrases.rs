@@ -158,7 +158,10 @@ fn in_metres(lexemes: &mut Vec<Lexeme>) {
     const PACES: &[&str] = &["pace", "paces", "stride", "strides"];
     const STEPS: &[&str] = &["step", "steps"];
     #[rustfmt::skip]
-    const LEAD: &Phrases = &Phrases::of(&["to the left", "to the right", "to its left", "to its right", "left", "right", "forward", "forwards", "back", "backwards", "closer to", "nearer to", "towards", "away from"]);
+    const LEAD: &Phrases = &Phrases::of(&["to the left", "to the right", "to its left", "to its right", "left", "right", "forward", "forwards", "back", "backwards"]);
+    // Who is to come closer by so many steps comes so many metres closer, as whoever walks does.
+    #[rustfmt::skip]
+    const CLOSER: &Phrases = &Phrases::of(&["closer", "nearer", "towards", "toward", "away", "from", "further", "farther", "off", "back from", "more away"]);
     let mut at = 0;
     while at < lexemes.len() {
         let found = numbers::number(&lexemes[at..]).filter(|(_, words)| {
@@ -167,7 +170,9 @@ fn in_metres(lexemes: &mut Vec<Lexeme>) {
             let leads = || longest_phrase(behind, LEAD).is_some() || longest(behind, DIRECTIONS).is_some();
             let is_one = *words == 1 && matches!(word(lexemes, at), "a" | "an");
             let said = word(lexemes, unit);
-            !is_one && (PACES.contains(&said) || STEPS.contains(&said) && leads())
+            !is_one
+                && longest_phrase(behind, CLOSER).is_none()
+                && (PACES.contains(&said) || STEPS.contains(&said) && leads())
         });
         if let Some((number, words)) = found {
             let unit = word_at(&lexemes[at + words], "metres");
