@@ -455,10 +455,16 @@ impl Reader<'_> {
 /// "Between the table and the chair closest to it": the second is told by where it stands to the first.
 fn stands_by(other: &mut Anchor, one: &Reference) {
     let Anchor::Thing(other) = other else { return };
-    let by = match &mut other.relation {
-        Some(Stands::To(_, by) | Stands::NearestTo(by, _) | Stands::Of(by)) => by,
-        Some(Stands::Within(_, by) | Stands::Beyond(_, by) | Stands::Compass(_, Some(by))) => by,
-        _ => return,
+    let Some(
+        Stands::To(_, by)
+        | Stands::NearestTo(by, _)
+        | Stands::Of(by)
+        | Stands::Within(_, by)
+        | Stands::Beyond(_, by)
+        | Stands::Compass(_, Some(by)),
+    ) = &mut other.relation
+    else {
+        return;
     };
     if is_pronoun(by) && by.relation.is_none() && !is_pronoun(one) {
         **by = one.clone();
