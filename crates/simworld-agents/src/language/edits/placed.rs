@@ -38,7 +38,6 @@ const ALONE: &Turns = &[
     ("out comes|come|goes|go|with N ,|- and|then|- in comes|come|goes|go|with D A", "remove N and put D A in its place"),
     // A certain thing, taken up again by a pronoun.
     ("N i|we|id|wed want|wish|need|like|would|prefer|demand like|love|want|prefer|- to|- see|have|get|- him|her|it|them W", "move N W"),
-    ("W , D A", "add D A W"),
 ];
 /// What is said before somebody is called by name.
 #[rustfmt::skip]
