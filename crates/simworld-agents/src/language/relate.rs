@@ -47,7 +47,10 @@ impl View<'_> {
             Stands::All(all) => self.in_all_ways(reference, all, purpose),
             Stands::Side(side) => Ok(self.on_side(reference, *side, purpose)),
             Stands::Compass(compass, of) => self.in_direction(reference, *compass, of.as_deref(), purpose),
-            Stands::OnStreet(roads) => Ok(self.on_street(reference, roads, purpose)),
+            Stands::OnStreet(roads) => Ok(self.on_street(reference, roads, None, purpose)),
+            Stands::SideOfStreet(compass, roads) => {
+                Ok(self.on_street(reference, roads, Some(*compass), purpose))
+            }
             Stands::Within(reach, anchor) => {
                 let anchor = self.find(anchor, Purpose::Any)?;
                 let half = anchor.info.shape.size().xy().norm() * 0.5;
@@ -229,8 +232,14 @@ impl View<'_> {
         Ok(found)
     }
 
-    /// On the edge of a street, the nearest first.
-    fn on_street(&self, reference: &Reference, roads: &[RoadId], purpose: Purpose) -> Vec<Ranked> {
+    /// On the edge of a street, on either side or on the one that lies in a direction, the nearest first.
+    fn on_street(
+        &self,
+        reference: &Reference,
+        roads: &[RoadId],
+        side: Option<Compass>,
+        purpose: Purpose,
+    ) -> Vec<Ranked> {
         let Some(network) = self.scene.roads() else { return Vec::new() };
         let mut found: Vec<Ranked> = Vec::new();
         for road in roads.iter().filter_map(|road| network.roads.get(road.index())) {
@@ -241,7 +250,9 @@ impl View<'_> {
                     let near = polyline::closest(piece, &entity.planar());
                     let beyond = near.is_some_and(|near| {
                         let kerb = if near.lateral >= 0.0 { road.left_kerb } else { road.right_kerb };
-                        near.distance - kerb <= EDGE
+                        let (foot, _) = polyline::at(piece, near.station);
+                        let is_there = |way: Compass| (entity.planar() - foot).dot(&way.step()) > 0.0;
+                        near.distance - kerb <= EDGE && side.is_none_or(is_there)
                     });
                     if beyond && self.fits(&entity, reference, purpose) {
                         found.push((self.distance(&entity), entity.id));

@@ -21,6 +21,8 @@ pub(super) enum Stands {
     Side(Side),
     /// On the edge of a street.
     OnStreet(Vec<RoadId>),
+    /// On the edge of a street, on the side of it that lies in a direction.
+    SideOfStreet(Compass, Vec<RoadId>),
     /// With a gap of at most so much to a thing, m.
     Within(f64, Box<Reference>),
     /// With a gap of at least so much to a thing, m.

@@ -71,6 +71,16 @@ impl Parser<'_> {
         if let Some((reach, from)) = self.distance_from(BEYOND, depth)? {
             return Ok(Some(Stands::Beyond(reach, Box::new(from))));
         }
+        // "The oak on the south side of Oak Street".
+        if self.eat_any(&["on the", "along the", "at the"])
+            && let Some(compass) = self.compass_of_part()
+            && self.eat_any(&["side of the", "side of"])
+            && let Some(street) = streets.at(self.rest())
+        {
+            self.at += street.words;
+            return Ok(Some(Stands::SideOfStreet(compass, street.roads.to_vec())));
+        }
+        self.at = start;
         if self.eat_any(ON_STREET) {
             self.eat_any(&["the"]);
             if let Some(street) = streets.at(self.rest()) {

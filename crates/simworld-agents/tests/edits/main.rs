@@ -8,6 +8,7 @@ mod edits_are_chatted;
 mod edits_are_composed;
 mod edits_are_judged;
 mod edits_are_measured;
+mod edits_are_places;
 mod edits_are_put_right;
 mod edits_are_remarked_on;
 mod edits_are_taken_back;

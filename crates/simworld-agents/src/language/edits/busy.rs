@@ -13,7 +13,7 @@ use super::words::WAYS;
 const SHALL_BE: &Phrases = &Phrases::of(&["should be", "could be", "must be", "shall be", "might be", "ought to be", "have to be", "has to be", "need to be"]);
 /// These say how something is to be changed, or are no deeds.
 #[rustfmt::skip]
-const NO_DEEDS: &[&str] = &["facing", "missing", "turning", "leaving", "moving", "going", "looking", "pointing", "something", "anything", "nothing", "everything", "replacing", "matching"];
+pub(super) const NO_DEEDS: &[&str] = &["facing", "missing", "turning", "leaving", "moving", "going", "looking", "pointing", "something", "anything", "nothing", "everything", "replacing", "matching"];
 /// Who they are takes no more words.
 const LONGEST: usize = 5;
 /// As many words stand at most between what they do and where: "warming up", "playing football".

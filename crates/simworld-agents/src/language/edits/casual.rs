@@ -25,6 +25,7 @@ const CASUAL: &Turns = &[
     ("O somewhere|someplace|right|exactly|- W , yes|yeah|yep|indeed|oh|- ,|- thats|that|thatd|it|its|there is|would|d|be|- be|- exactly|just|precisely|- where id|wed|i|we|you|theyd|one|they would|want|need|- like|love|want|- to|- see|have|put|place|park|set|build|plant|add|stand|hide|erect|raise|stick|install D A", "O put D A W"),
     ("O somewhere|someplace|right|exactly|- W , yes|yeah|yep|indeed|oh|- ,|- thats|that is|- exactly|just|- where D A should|must|could|would|ought|has|is|needs|belongs|goes|fits to|- go|stand|be|belong|fit|-", "O put D A W"),
     ("O somewhere|someplace|right|exactly|- W , yes|yeah|yep|indeed|oh|- ,|- thats|that|thatd|its|it|there is|would|d|be|- be|- exactly|just|- the|a|- perfect|right|ideal|good|best|very|- spot|place|location|position|home|corner for D A", "O put D A W"),
+    ("O somewhere|someplace|- W ,|- somebody|someone|anybody|people could|can|should|must|might|may|shall|ought|will|has|have|needs|need to|- please|kindly|- hide|raise|put|place|build|erect|park|plant|install|add|set|stand|stick|hang|locate|position|pop|plonk|tuck|squeeze|fit|construct|drop|lay up|in|down|- D A", "O put D A W"),
     ("O somewhere|someplace|- W ,|- i|we|you|they|one|id|wed|youd|theyd|lets would|could|can|should|might|may|shall|ought|will|d|- to|rather|gladly|love|like|- to|- hide|raise|put|place|build|erect|park|plant|install|add|set|stand|stick|hang|locate|position|pop|plonk|tuck|squeeze|fit|construct|drop|lay|construct up|in|down|- D A", "O put D A W"),
     ("O somewhere|someplace|- W ,|- have|let|get|make D A wait|stand|sit|stay|pose|rest|sleep|play|lie|queue|perform|live|grow|bloom|be|work|relax there|-", "O put D A W"),
     ("O somewhere|someplace|- W ,|- the|our|my|these|those|some|many|all A are|is|were|was|keep|keeps wishing|hoping|asking|longing|dreaming|begging|praying|pleading|waiting|craving for|of|- D B", "O put D B W"),
@@ -48,6 +49,9 @@ const CASUAL: &Turns = &[
     ("from|starting|as now|today|tomorrow|of on|now|today|onwards|onward|- ,|- N is|has|needs|ought|shall|will|should|must|can to|- be called|named|known|renamed as|to|- B", "name N as B"),
     ("N is|has|needs to be called|named|renamed|known as|to|- B from now on|-", "name N as B"),
     // Wishes with "that".
+    ("O i|we want|wish|demand|insist|ask|need that|- there is|are|be|was|were|exists|exist|stands|stand|comes|come D A", "O put D A"),
+    ("O i|we would|should like|love|prefer|wish|want it|- that|if|- there is|are|be|was|were|exists|exist|stands|stand|comes|come D A", "O put D A"),
+    ("O id|wed like|love|prefer|wish|want it|- that|if|- there is|are|be|was|were|exists|exist|stands|stand|comes|come D A", "O put D A"),
     ("O i|we|id|wed want|wish|would|like|demand|prefer|ask|insist like|prefer|wish|- that D A is|are|be|stands|stand|sits|sit|grows|goes standing|sitting|placed|parked|put|growing|waiting|- W", "O put D A W"),
     ("O i|we|id|wed want|wish|would|like|demand|prefer|ask|insist like|prefer|wish|- that A is|are|be|stands|stand|sits|sit|goes|go|moves|waits standing|sitting|placed|parked|waiting|moved|put|- W", "O move A W"),
     ("O i|we|id|wed want|wish|would|like|demand|prefer|ask|insist like|prefer|wish|- that A is|are|be|becomes|gets painted|- K", "O paint A K"),

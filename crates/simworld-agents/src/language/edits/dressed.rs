@@ -12,13 +12,16 @@ use super::wish::{Anchor, Where, Wish};
 #[derive(Clone, Copy)]
 enum Dress {
     Along,
+    /// Around a thing, and along what is long: a street, a river.
+    Border,
     Around,
     In,
 }
 
 #[rustfmt::skip]
 const DRESS: &[(&[&str], Dress)] = &[
-    (&["line", "edge", "flank", "border", "fringe", "line both sides of", "line the side of", "line the sides of", "plant the edge of", "hem"], Dress::Along),
+    (&["line", "flank", "line both sides of", "line the side of", "line the sides of"], Dress::Along),
+    (&["edge", "border", "fringe", "rim", "hem", "plant the edge of", "plant the edges of", "plant the rim of", "line the edge of", "line the edges of"], Dress::Border),
     (&["surround", "encircle", "ring", "circle", "enclose", "frame", "seal", "seal off", "fence", "fence in", "fence off", "hem in", "wall in", "cordon", "protect", "secure", "guard"], Dress::Around),
     (&["fill", "furnish", "dot", "sprinkle", "equip", "populate", "decorate", "strew", "provide", "plant", "adorn", "dress", "embellish", "grace", "stock", "beautify", "supply", "fit out", "kit out", "outfit"], Dress::In),
 ];
@@ -75,9 +78,9 @@ impl Reader<'_> {
                 continue;
             }
             let place = match dress {
-                Dress::Along if thing.count == 2 => Where::BothSides(anchor),
-                Dress::Along if both => Where::BothSides(anchor),
-                Dress::Along => Where::Along(anchor),
+                Dress::Along | Dress::Border if both || thing.count == 2 => Where::BothSides(anchor),
+                Dress::Border if goes_round(&anchor) => Where::Around(anchor),
+                Dress::Along | Dress::Border => Where::Along(anchor),
                 Dress::Around => {
                     if thing.count == 2 {
                         return Some(Wish::Add { things: vec![thing], at: vec![Where::BothSides(anchor)] });
@@ -140,6 +143,14 @@ impl Reader<'_> {
         let what = Reference { relation: Some(relation), count: Count::All, ..what };
         Some(Wish::Remove { what: vec![what] })
     }
+}
+
+/// Whether what borders a thing stands all around it: streets and waters are bordered along their length.
+fn goes_round(anchor: &Anchor) -> bool {
+    const WATERS: &[&str] = &["river", "canal", "stream", "brook", "quay", "shore", "bank"];
+    let Anchor::Thing(thing) = anchor else { return false };
+    let text = thing.text.to_lowercase();
+    !text.split(' ').any(|word| WATERS.contains(&word))
 }
 
 /// Every word of these tables, for the spelling.

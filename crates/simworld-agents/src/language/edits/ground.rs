@@ -43,6 +43,8 @@ impl Finder<'_> {
             return self.lined_many(thing, line);
         }
         let is_row = match line {
+            // "Four taxis on Oak Street" are parked there one by one: a row would keep them off the carriageway and at its kerb at once.
+            Where::Along(Anchor::Street(..)) if self.drives(thing) => false,
             Where::Along(_)
             | Where::BothSides(_)
             | Where::Between(..)
@@ -58,6 +60,13 @@ impl Finder<'_> {
             _ => false,
         };
         if is_row { self.row(thing, line, Spacing::Count(thing.count)).map(Some) } else { Ok(None) }
+    }
+
+    /// Whether a new thing is a vehicle.
+    fn drives(&self, thing: &NewThing) -> bool {
+        let catalogue = &self.stock.catalogue;
+        let asset = self.made(thing).ok().and_then(|make| catalogue.get(catalogue.find(&make.asset)?));
+        asset.is_some_and(|asset| asset.kind.is_vehicle())
     }
 
     /// Things of which nobody says how many: a row of them as wide as such rows are, or a circle.

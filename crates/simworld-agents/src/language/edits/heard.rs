@@ -14,8 +14,7 @@ use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked,
-    repairs, respelt, retold, rows, sells_both, slips, spared, spoken, statements, talk, view_of, which,
+    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, remarked, repairs, respelt, retold, rows, sells_both, slips, spared, spoken, statements, talk, view_of, which,
     whole, wording,
 };
 use crate::editing::{EditError, Stock};
@@ -173,7 +172,10 @@ impl Ear<'_> {
                 return anew;
             }
         }
-        read
+        let mut spelt = heard.to_vec();
+        slips::correct(words, &mut spelt, &names, stock, &focus.streets);
+        let placed = [heard, &spelt[..]].map(|said| placed::ways(words, said, &names)).concat();
+        placed.into_iter().map(|way| self.read(way)).find(|anew| self.is_granted(anew)).unwrap_or(read)
     }
 }
 
@@ -224,6 +226,7 @@ fn put_plainly(
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
     respelt::in_plain_spelling(words, lexemes);
+    periphrases::in_plain_words(lexemes);
     talk::in_plain_words(words, lexemes, names);
     doubted::in_plain_words(lexemes);
     casual::in_plain_words(lexemes);

@@ -60,7 +60,9 @@ mod parse;
 mod parts;
 mod passage;
 mod passing;
+mod periphrases;
 mod phrased;
+mod placed;
 mod places;
 mod plain;
 mod polite;
@@ -393,6 +395,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(topics::words())
         .chain(originals::words())
         .chain(texts::words())
+        .chain(periphrases::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -22,6 +22,12 @@ const WITHIN: &[&str] = &["within", "at most", "not more than", "no more than", 
 #[rustfmt::skip]
 const BEYOND: &[&str] = &["at least", "more than", "no less than", "not less than", "no closer than", "farther than",
     "no nearer than"];
+/// Behind a distance, that it is the least.
+#[rustfmt::skip]
+const OR_MORE: &Phrases = &Phrases::of(&["or more", "or further", "or farther", "or so at least", "and more", "or upwards", "or above", "or over", "or beyond", "at least", "at the least", "at the very least", "minimum", "at a minimum", "as a minimum", "and up"]);
+/// Behind a distance, that it is the greatest.
+#[rustfmt::skip]
+const OR_LESS: &Phrases = &Phrases::of(&["or less", "or nearer", "or closer", "or under", "or below", "at most", "at the most", "at the very most", "maximum", "at a maximum", "as a maximum", "tops"]);
 /// What stands between a greatest distance and the thing.
 const OF: &[&str] = &["of", "from", "away from", "around", "off", "to"];
 /// As far beyond a least distance as is looked, m.
@@ -57,7 +63,10 @@ impl Reader<'_> {
         }
         let before = longest_phrase(rest, WITHIN).or(longest_phrase(rest, BEYOND)).unwrap_or(0);
         let Some((_, words)) = numbers::length(&rest[before..]) else { return false };
-        before > 0 || self.direction_at(at + words).is_some() || longest(&rest[words..], OWN).is_some()
+        self.is_bounded(at + words)
+            || before > 0
+            || self.direction_at(at + words).is_some()
+            || longest(&rest[words..], OWN).is_some()
     }
 
     /// What direction, or none in particular, stands behind a distance, and how many words say so up to the thing.
@@ -118,6 +127,9 @@ impl Reader<'_> {
             return Ok(None);
         };
         let from = self.at + words;
+        if let Some(place) = self.bounded(distance, from, end)? {
+            return Ok(Some(place));
+        }
         if let Some((bearing, words)) = self.direction_at(from) {
             self.at = from + words;
             let anchor = self.anchor(end)?;
@@ -132,6 +144,29 @@ impl Reader<'_> {
         }
         self.at = start;
         Ok(None)
+    }
+
+    /// Whether a bound on a distance stands here, and what it is from behind it.
+    fn is_bounded(&self, at: usize) -> bool {
+        let rest = &self.lexemes[at.min(self.lexemes.len())..];
+        longest_phrase(rest, OR_MORE)
+            .or_else(|| longest_phrase(rest, OR_LESS))
+            .is_some_and(|words| longest_phrase(&rest[words..], FROM).is_some())
+    }
+
+    /// "... or more from the river", behind a distance, m.
+    fn bounded(&mut self, distance: f64, at: usize, end: usize) -> Result<Option<Where>, PlanError> {
+        if !self.is_bounded(at) {
+            return Ok(None);
+        }
+        self.at = at;
+        let is_least = self.eat_any(OR_MORE);
+        let is_bound = is_least || self.eat_any(OR_LESS);
+        if !is_bound || !self.eat_any(FROM) {
+            return Ok(None);
+        }
+        let (least, most) = if is_least { (distance, distance + REACH) } else { (0.0, distance) };
+        Ok(Some(Where::Apart(least, most, self.anchor(end)?)))
     }
 
     /// Whether the meeting of two streets begins at a token.
@@ -181,6 +216,15 @@ const fn side(relation: Relation) -> bool {
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     let own = OWN.iter().flat_map(|(words, _)| *words).copied();
-    let phrases = FROM.iter().chain(WITHIN).chain(BEYOND).chain(JUNCTIONS).chain(AND).chain(MEET).copied();
+    let phrases = FROM
+        .iter()
+        .chain(WITHIN)
+        .chain(BEYOND)
+        .chain(OR_MORE)
+        .chain(OR_LESS)
+        .chain(JUNCTIONS)
+        .chain(AND)
+        .chain(MEET)
+        .copied();
     phrases.chain(own).flat_map(|phrase| phrase.split(' '))
 }

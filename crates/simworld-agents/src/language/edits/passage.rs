@@ -27,6 +27,18 @@ const OPEN: &Phrases = &Phrases::of(&["open", "reopened", "opened", "unblocked",
     "cars may use", "traffic can use", "cars can use", "traffic is allowed", "cars are allowed", "cars may drive",
     "let the cars back", "let cars back", "let traffic back", "let the traffic back", "cars can drive", "usable",
     "traffic may return", "cars may return", "opened up", "let the cars back in", "let cars back in", "let traffic back in", "let the traffic back in", "shut long enough", "closed long enough", "blocked long enough", "shut for long enough", "closed for long enough", "shut for too long", "closed for too long", "free for traffic", "free for the traffic", "free to traffic", "free for cars", "free again", "free for all", "can be used", "may be used", "can be driven", "drivable", "back to normal", "flow again", "flowing again", "give back to traffic", "give back to cars", "for everyone again"]);
+/// For whom a street is closed or open, before it is said from where to where.
+#[rustfmt::skip]
+const TRAFFIC: &Phrases = &Phrases::of(&["to traffic", "to all traffic", "to through traffic", "to the traffic", "to cars", "to all cars", "to vehicles", "to all vehicles", "to motor traffic", "to motor vehicles", "to motorists", "to drivers",
+    "for traffic", "for all traffic", "for through traffic", "for the traffic", "for cars", "for all cars", "for vehicles", "for all vehicles", "for drivers", "completely", "entirely", "off", "down", "up", "again", "again to traffic", "again for traffic", "to traffic again",
+    "for traffic again", "to cars again", "for cars again", "only", "just", "in both directions", "both ways"]);
+/// A piece of a street that is told by how it is: only such a one can be opened, or closed.
+#[rustfmt::skip]
+const PIECE_THAT_IS: &Phrases = &Phrases::of(&["closed stretch", "closed piece", "closed end", "closed portion", "closed off part", "closed off half", "closed off bit", "closed off section", "closed off stretch", "closed off end",
+    "blocked half", "blocked part", "blocked bit", "blocked section", "blocked stretch", "blocked piece", "blocked end", "blocked portion", "blocked off half", "blocked off part", "blocked off bit", "blocked off section", "blocked off stretch", "blocked off end",
+    "shut half", "shut part", "shut bit", "shut section", "shut stretch", "shut piece", "shut end", "barred half", "barred part", "barred bit", "barred section", "barred stretch", "sealed off half", "sealed off part", "sealed off bit", "sealed off section",
+    "sealed off stretch", "part that is closed", "half that is closed", "bit that is closed", "section that is closed", "stretch that is closed", "part thats closed", "half thats closed", "bit thats closed", "section thats closed", "stretch thats closed",
+    "part that is blocked", "half that is blocked", "bit that is blocked", "section that is blocked", "stretch that is blocked", "part thats blocked", "half thats blocked", "bit thats blocked", "section thats blocked", "stretch thats blocked"]);
 /// What says nothing more.
 #[rustfmt::skip]
 const NOISE: &Phrases = &Phrases::of(&["to", "traffic", "for", "on", "onto", "from", "again", "please", "is", "be", "should be", "must be",
@@ -127,7 +139,8 @@ impl Reader<'_> {
             }
             let closes = longest_phrase(rest, CLOSING).max(longest_phrase(rest, CLOSED)).unwrap_or(0);
             let opens = longest_phrase(rest, OPENING).max(longest_phrase(rest, OPEN)).unwrap_or(0);
-            let noise = longest_phrase(rest, NOISE).unwrap_or(0).max(self.polite_at(at).min(end - at));
+            let noise = longest_phrase(rest, NOISE).max(longest_phrase(rest, PIECE_THAT_IS)).unwrap_or(0);
+            let noise = noise.max(self.polite_at(at).min(end - at));
             let most = closes.max(opens).max(noise);
             if most == 0 {
                 return None;
@@ -229,7 +242,9 @@ impl Reader<'_> {
     ) -> (Option<[Vec<simworld_core::id::RoadId>; 2]>, usize) {
         let found = || {
             let streets = self.view.streets?;
-            let from = at + longest_phrase(&self.lexemes[at..end], &["between", "from"])?;
+            // "Close Oak Street to traffic between Harbour Road and Station Road".
+            let from = at + longest_phrase(&self.lexemes[at..end], TRAFFIC).unwrap_or(0);
+            let from = from + longest_phrase(&self.lexemes[from..end], &["between", "from"])?;
             let one = streets.in_short(&self.lexemes[from..end])?;
             let mut next = from + one.words;
             next += longest_phrase(&self.lexemes[next..end], &["and", "to", "up to"])?;

@@ -4,7 +4,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::super::clause::{Count, Reference, Target};
+use super::super::clause::{Count, Reference, Stands, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
@@ -350,13 +350,22 @@ impl Reader<'_> {
 
     fn between(&mut self, end: usize) -> Result<Where, PlanError> {
         let start = self.at;
+        // "Between me and the cone".
+        if self.eat_any(&["me", "myself", "us", "where i am", "where i stand"])
+            && self.word(self.at) == Some("and")
+        {
+            self.at += 1;
+            return Ok(Where::Between(Anchor::Viewer, self.anchor(end)?));
+        }
+        self.at = start;
         for cut in start + 1..end {
             if longest_phrase(&self.lexemes[cut..end], &["and"]).is_none() {
                 continue;
             }
             let Ok(one) = self.one_of(start, cut) else { continue };
             self.at = cut + 1;
-            let other = self.anchor(end)?;
+            let mut other = self.anchor(end)?;
+            stands_by(&mut other, &one);
             return Ok(Where::Between(Anchor::Thing(one), other));
         }
         // "Between the two trees".
@@ -440,6 +449,25 @@ impl Reader<'_> {
         }
         self.at = start;
         None
+    }
+}
+
+/// "Between the table and the chair closest to it": the second is told by where it stands to the first.
+fn stands_by(other: &mut Anchor, one: &Reference) {
+    let Anchor::Thing(other) = other else { return };
+    let Some(
+        Stands::To(_, by)
+        | Stands::NearestTo(by, _)
+        | Stands::Of(by)
+        | Stands::Within(_, by)
+        | Stands::Beyond(_, by)
+        | Stands::Compass(_, Some(by)),
+    ) = &mut other.relation
+    else {
+        return;
+    };
+    if is_pronoun(by) && by.relation.is_none() && !is_pronoun(one) {
+        **by = one.clone();
     }
 }
 

@@ -449,7 +449,7 @@ fn is_of_kind(capital: &str, words: &[Lexeme]) -> bool {
 }
 
 /// "Behind the school", and neither "behind" nor "behind the".
-fn is_somewhere(words: &[Lexeme]) -> bool {
+pub(super) fn is_somewhere(words: &[Lexeme]) -> bool {
     let is_compass = longest(words, DIRECTIONS).is_some_and(|(_, count)| {
         longest_phrase(&words[count..], &["of"]).is_some_and(|of| words.len() > count + of + 1)
     });
@@ -473,7 +473,7 @@ fn may_order(words: &[Lexeme]) -> bool {
 }
 
 /// "A", "one", "a pair of", "two".
-fn is_new(words: &[Lexeme]) -> bool {
+pub(super) fn is_new(words: &[Lexeme]) -> bool {
     let article = longest_phrase(words, &["a", "an", "one", "some", "another"]) == Some(words.len());
     article || super::super::numbers::count(words).is_some_and(|(_, count)| count == words.len())
 }

@@ -28,7 +28,11 @@ const APART: &Phrases = &Phrases::of(&["apart", "apart from each other", "from e
 const ROWS: &Phrases = &Phrases::of(&["a row of", "a line of", "in a row", "in a line", "in an even row", "in an evenly spaced row", "in a neat row", "in one row", "in a single row", "in a tidy row", "in a long row", "in an even line", "in a neat line", "in even rows", "a straight line of", "a queue of", "in a straight line", "a chain of",
     "an avenue of", "in line", "rows of", "evenly spaced", "evenly",
     "evenly distributed", "at even distances", "at equal distances", "equally spaced", "at regular intervals", "spaced evenly",
-    "evenly spread", "spread evenly", "lined up", "one after another", "one after the other"]);
+    "evenly spread", "spread evenly", "lined up", "one after another", "one after the other",
+    "at equal gaps", "with equal gaps", "at even gaps", "with even gaps", "at regular gaps", "with regular gaps", "with equal distances", "with even distances", "with regular distances", "at regular distances", "at equal spaces", "with equal spaces", "with even spaces", "with regular spaces",
+    "at equal spacing", "at even spacing", "with equal spacing", "with even spacing", "with regular spacing", "at a regular spacing", "at equal intervals", "at even intervals", "with equal intervals", "with even intervals", "with regular intervals", "in equal intervals", "in even intervals", "in regular intervals",
+    "in equal distances", "in even distances", "in regular distances", "with equal gaps between them", "with even gaps between them", "with equal spaces between them", "with equal space between them", "with even space between them", "with the same gap between them", "with the same space between them",
+    "with the same distance between them", "with the same spacing", "with equal space in between", "with equal spaces in between", "equal distances apart", "equidistant", "equidistantly", "equally far apart", "spaced out evenly", "evenly spaced out", "spaced out equally", "equally distributed", "regularly spaced", "uniformly spaced"]);
 /// That things stand in a circle.
 #[rustfmt::skip]
 const RINGS: &[&str] = &["a ring of", "a circle of", "in a ring", "in a circle", "ring of", "circle of"];

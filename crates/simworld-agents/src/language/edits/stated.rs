@@ -252,7 +252,8 @@ impl Reader<'_> {
                     || !self.word(at).is_some_and(|word| word.ends_with('s')))
                 && self.one_of(at, place).is_err()
                 && self.order_at(at, place).is_none()
-                && super::follow::species(&self.lexemes[at]).is_none()
+                // "Willows along the river" are new where none is there, and "willow by the river" is one of the scene.
+                && super::follow::species(&self.lexemes[at]).is_none_or(|one| self.word(at) != Some(one))
                 && super::forms::as_order(&self.lexemes[at..place]).is_none()
                 && self.names.exact(&self.lexemes[place - 1..place]).is_none()
         });
