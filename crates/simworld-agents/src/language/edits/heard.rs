@@ -15,7 +15,8 @@ use super::wish::Wish;
 use super::{
     Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
     lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked,
-    repairs, respelt, retold, rows, sells_both, slips, spared, spoken, talk, view_of, which, whole, wording,
+    repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken, talk, view_of, which, whole,
+    wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -31,7 +32,8 @@ pub(crate) fn read(
         return Err(EditError::NotUnderstood { words: shortened(words), fragment: String::new(), hint });
     }
     let ear = Ear { words, scene, stock, focus };
-    let heard = hearing::hear(words, None);
+    let mut heard = hearing::hear(words, None);
+    shades::in_plain_words(words, &mut heard);
     let read = ear.read(heard.clone());
     // What is said in one go has nothing that could be left out.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);

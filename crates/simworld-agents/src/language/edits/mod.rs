@@ -80,6 +80,7 @@ mod says;
 mod sells_both;
 mod settle;
 mod several_nearest;
+mod shades;
 mod shared;
 mod shares;
 mod sizes;
