@@ -13,10 +13,10 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain, remarked,
-    repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken, talk, view_of, which, whole,
-    wording,
+    Focus, Reading, breaks, casual, chatter, doings, doubted, dress_new, gone_by_name, gone_once,
+    hesitations, lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain,
+    remarked, repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken, talk, view_of,
+    which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -228,6 +228,7 @@ fn put_plainly(
     doubted::in_plain_words(lexemes);
     casual::in_plain_words(lexemes);
     retold::in_plain_words(lexemes);
+    doings::in_plain_words(lexemes);
     slips::correct(words, lexemes, names, stock, streets);
     spared::in_plain_words(lexemes);
     sells_both::in_plain_words(lexemes, names);
