@@ -13,10 +13,10 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, chatter, doings, doubted, dress_new, gone_by_name, gone_once,
-    hesitations, lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, phrased, plain,
-    remarked, repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken, talk, view_of,
-    which, whole, wording,
+    Focus, Reading, breaks, casual, chatter, doings, doubted, dress_new, gone_by_name, gone_once, headings,
+    hesitations, lastly, made_once, margins, meant, narrowed, nth, others, paint_at_once, passing, phrased,
+    plain, presence, remarked, repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken,
+    talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -218,6 +218,9 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    headings::in_plain_words(words, lexemes, names);
+    presence::in_plain_words(lexemes);
+    meant::in_plain_words(lexemes);
     margins::in_plain_words(lexemes);
     remarked::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);
