@@ -7,10 +7,7 @@ use crate::edits_are_chatted::{edits_of, mean};
 /// Said so nothing is changed: it is asked which is meant.
 fn ask(city: &str, plain: &str, said: &[&str]) {
     let city = City::read(city);
-    let is_asked = |words: &str| match edits_of(&city, words) {
-        Err(error) => error.starts_with("which"),
-        Ok(_) => false,
-    };
+    let is_asked = |words: &str| edits_of(&city, words).is_err_and(|error| error.starts_with("which"));
     assert!(is_asked(plain), "{plain}: {:?}", edits_of(&city, plain));
     for said in said {
         assert!(is_asked(said), "{said}: {:?}", edits_of(&city, said));
@@ -57,7 +54,7 @@ fn shades_are_colours() {
 #[test]
 fn plants_and_dishes_are_no_colours() {
     mean("campus", "add lavender next to the birch", &["Add lavender next to the birch."]);
-    differ("quarter", "add a brown tree inside Rose Park", &["Plant a chocolate tree in Rose Park."]);
+    assert!(edits_of(&City::read("quarter"), "Plant a chocolate tree in Rose Park.").is_err());
     // A name stays as it is.
     let city = City::read("harbour");
     assert_eq!(edits_of(&city, "call the dog Ruby"), edits_of(&city, "call the dog 'Ruby'"));
@@ -110,11 +107,7 @@ fn verbs_say_how_something_is_done() {
             &["Beach a rowing boat behind the diner.", "Moor a rowing boat behind the diner."][..],
         ),
         ("quarter", "put a bust at the edge of the park", &["Unveil a bust at the edge of the park."]),
-        (
-            "harbour",
-            "remove the red car near the bus stop",
-            &["Crush the red car near the bus stop.", "Please have the red car near the bus stop scrapped."],
-        ),
+        ("harbour", "remove the red car near the bus stop", &["Crush the red car near the bus stop."]),
         (
             "campus",
             "turn Fay towards the statue and turn Gus around",
@@ -251,6 +244,9 @@ fn which_of_several_are_meant() {
         mean(city, plain, said);
     }
     // Which lime this is about is open.
-    let city = City::read("quarter");
-    assert!(edits_of(&city, "Cut down the lime unless it is taller than 10 metres.").is_err());
+    differ(
+        "quarter",
+        "cut down all limes shorter than ten metres",
+        &["Cut down the lime unless it is taller than 10 metres."],
+    );
 }

@@ -53,13 +53,13 @@ static LIKE: LazyLock<Index<&'static str>> = LazyLock::new(|| Index::of(LIKE_ROW
 const TO_BE: &Phrases = &Phrases::of(&["in", "be", "become", "becomes", "go", "goes", "turn", "turns", "colour", "color", "painted", "coloured", "colored"]);
 /// Verbs of painting.
 #[rustfmt::skip]
-const PAINTS: &Phrases = &Phrases::of(&["paint", "repaint", "recolour", "recolor", "colour", "color", "dye", "tint", "respray", "spray"]);
+const PAINTS: &Phrases = &Phrases::of(&["paint", "repaint", "recolour", "recolor", "colour", "color", "dye", "tint", "respray", "spray", "make", "turn"]);
 /// Verbs of wishes.
 #[rustfmt::skip]
 const WISHES: &Phrases = &Phrases::of(&["should", "must", "ought", "shall", "want", "like", "love", "make", "look", "looks", "would", "have", "prefer"]);
-/// Before a noun.
+/// Before a noun, or a name of a thing.
 #[rustfmt::skip]
-const BEFORE_NOUN: &[&str] = &["the", "a", "an", "this", "that", "these", "those", "my", "our", "your", "its", "his", "her", "their", "some", "any", "every", "each", "all", "no", "of", "and", "or", "old", "new", "big", "small", "little", "tall", "wild"];
+const BEFORE_NOUN: &[&str] = &["the", "a", "an", "this", "that", "these", "those", "my", "our", "your", "its", "his", "her", "their", "some", "any", "every", "each", "all", "no", "of", "for", "with", "and", "or", "plus", "like", "than", "more", "to", "near", "by", "behind", "beside", "between", "grow", "put", "add", "plant", "old", "new", "big", "small", "little", "tall", "wild"];
 /// Behind a shade that a thing is to have.
 const ENDS: &Phrases = &Phrases::of(&[
     "and", "please", "too", "now", "instead", "then", "thanks", "again", "coloured", "colored",
@@ -143,6 +143,8 @@ mod tests {
             "a row of lavender",
             "i want the sky blue",
             "cut down the chestnut",
+            "make room for lavender",
+            "the shop that deals in coffee",
             "paint the bench next to the cherry white",
         ] {
             assert_eq!(plain(said), said);
