@@ -63,14 +63,14 @@ pub(super) fn factor(lexemes: &[Lexeme]) -> Option<f64> {
         let by = longest_phrase(lexemes.get(words..)?, &["by"])?;
         grown(whole(words + by)?, more)
     };
+    if let Some(words) = longest_phrase(lexemes, &["to", "down to", "up to", "at"]) {
+        return whole(words);
+    }
     if let Some(words) = longest_phrase(lexemes, LARGER).or_else(|| longest_phrase(lexemes, &["up"])) {
         return behind(true, words);
     }
     if let Some(words) = longest_phrase(lexemes, SMALLER).or_else(|| longest_phrase(lexemes, &["down"])) {
         return behind(false, words);
-    }
-    if let Some(words) = longest_phrase(lexemes, &["to", "down to", "up to", "at"]) {
-        return whole(words);
     }
     // "By a fifth larger", "a fifth larger".
     let by = longest_phrase(lexemes, &["by"]).unwrap_or(0);
@@ -107,6 +107,7 @@ mod tests {
             ("down by a tenth", 0.9),
             ("smaller by three quarters", 0.25),
             ("to three fifths of its size", 0.6),
+            ("down to a tenth", 0.1),
         ] {
             let factor = factor(&lex(said));
             assert!(factor.is_some_and(|factor| (factor - meant).abs() < 1e-9), "{said}: {factor:?}");
