@@ -13,6 +13,7 @@ mod edits_are_put_right;
 mod edits_are_remarked_on;
 mod edits_are_taken_back;
 mod edits_are_told_along;
+mod edits_are_verbs;
 mod edits_by_policy;
 mod edits_can_be_answered;
 mod edits_carry_their_loads;

@@ -13,9 +13,7 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, chatter, doubted, dress_new, gone_by_name, gone_once, hesitations,
-    lastly, made_once, margins, narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, remarked, repairs, respelt, retold, rows, sells_both, slips, spared, spoken, statements, talk, view_of, which,
-    whole, wording,
+    Focus, Reading, breaks, casual, chatter, doings, doubted, dress_new, gone_by_name, gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -31,7 +29,8 @@ pub(crate) fn read(
         return Err(EditError::NotUnderstood { words: shortened(words), fragment: String::new(), hint });
     }
     let ear = Ear { words, scene, stock, focus };
-    let heard = hearing::hear(words, None);
+    let mut heard = hearing::hear(words, None);
+    shades::in_plain_words(words, &mut heard);
     let read = ear.read(heard.clone());
     // What is said in one go has nothing that could be left out.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
@@ -220,6 +219,9 @@ fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     statements::leave_out_early(words, lexemes, names);
+    headings::in_plain_words(words, lexemes, names);
+    presence::in_plain_words(lexemes);
+    meant::in_plain_words(lexemes);
     margins::in_plain_words(lexemes);
     remarked::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);
@@ -231,6 +233,7 @@ fn put_plainly(
     doubted::in_plain_words(lexemes);
     casual::in_plain_words(lexemes);
     retold::in_plain_words(lexemes);
+    doings::in_plain_words(lexemes);
     slips::correct(words, lexemes, names, stock, streets);
     spared::in_plain_words(lexemes);
     sells_both::in_plain_words(lexemes, names);

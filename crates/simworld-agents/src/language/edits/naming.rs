@@ -5,6 +5,7 @@ use simworld_core::seam::PlanError;
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::Wish;
 
@@ -66,6 +67,7 @@ impl Reader<'_> {
             if from >= end
                 || is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
                 || is_later
+                || self.tells_which(cut, end)
                 || longest(&self.lexemes[from..end], &super::words::WAYS).is_some()
             {
                 continue;
@@ -78,6 +80,28 @@ impl Reader<'_> {
             }
         }
         Err(self.not_understood("say what to name, and how"))
+    }
+
+    /// "The oak | nearest to me", "the tree shorter than 8.5 | m": what goes on so in small letters still tells which thing is meant.
+    fn tells_which(&self, cut: usize, end: usize) -> bool {
+        #[rustfmt::skip]
+        const WHICH: &Phrases = &Phrases::of(&["nearest to", "nearest the", "nearest me", "closest to", "closest the", "closest me", "farthest from", "furthest from", "farthest away", "furthest away", "taller than", "shorter than", "higher than", "lower than",
+            "bigger than", "larger than", "smaller than", "that is", "that stands", "which is", "which stands", "who is", "who stands"]);
+        let rest = &self.lexemes[cut..end];
+        let is_small = rest
+            .first()
+            .is_some_and(|first| self.words[first.start..].starts_with(|first: char| !first.is_uppercase()));
+        let is_unit = || {
+            matches!(self.lexemes[cut - 1].token, Token::Number(_))
+                && longest(rest, super::super::numbers::UNITS).is_some()
+        };
+        let is_to = || {
+            matches!(self.word(cut), Some("to" | "from"))
+                && self.word(cut - 1).is_some_and(|word| NEARBY.contains(&word))
+        };
+        is_small
+            && self.quoted(cut).is_none()
+            && (longest_phrase(rest, WHICH).is_some() || is_unit() || is_to())
     }
 
     /// The name that stands from a place on, and what else is named behind it.

@@ -466,11 +466,16 @@ impl<'a> Reader<'a> {
         if verb.max(way) >= polite { 0 } else { polite }
     }
 
+    /// "The door on my right": no "right?".
+    fn is_side(&self, at: usize) -> bool {
+        self.word(at) == Some("right") && matches!(self.word(at - 1), Some("my" | "our" | "your"))
+    }
+
     /// Where the words end without politeness behind them.
     pub(super) fn before_politeness(&self, start: usize, mut end: usize) -> usize {
         loop {
             let cut = (start + 1..end).rev().find(|at| {
-                longest_phrase(&self.lexemes[*at..end], CODA) == Some(end - at)
+                longest_phrase(&self.lexemes[*at..end], CODA) == Some(end - at) && !self.is_side(*at)
                     || matches!(self.lexemes[*at].token, Token::Comma | Token::Break) && at + 1 == end
             });
             match cut {

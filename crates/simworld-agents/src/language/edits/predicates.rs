@@ -420,7 +420,11 @@ pub(super) fn size_of(lexemes: &[Lexeme]) -> Option<f64> {
         let named = longest(words, &FACTORS).or_else(|| factor_in_numbers(words));
         // "Three" alone is no size.
         let is_number = words.len() == 1 && longest(words, &FACTORS).is_none();
-        named.filter(|(_, count)| *count == words.len() && !is_number).map(|(factor, _)| factor)
+        let by_share = || super::ratios::factor(words);
+        named
+            .filter(|(_, count)| *count == words.len() && !is_number)
+            .map(|(factor, _)| factor)
+            .or_else(by_share)
     };
     if words.is_empty() {
         return None;

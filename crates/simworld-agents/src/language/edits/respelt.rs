@@ -93,7 +93,7 @@ pub(super) fn in_plain_spelling(words: &str, lexemes: &mut Vec<Lexeme>) {
 }
 
 /// Whether a word is a name, which is written with a capital within a sentence and stands as it is.
-fn is_name(words: &str, lexemes: &[Lexeme], at: usize) -> bool {
+pub(super) fn is_name(words: &str, lexemes: &[Lexeme], at: usize) -> bool {
     let begins = at == 0 || matches!(lexemes[at - 1].token, Token::Comma | Token::Break);
     !begins && words[lexemes[at].start..].starts_with(char::is_uppercase)
 }

@@ -2,7 +2,7 @@
 
 use simworld_core::seam::PlanError;
 
-use super::super::clause::Count;
+use super::super::clause::{Count, Reference};
 use super::super::lexer::{Lexeme, Token, lex};
 use super::super::lexicon::longest_phrase;
 use super::super::numbers;
@@ -13,9 +13,16 @@ use super::wish::Wish;
 impl Reader<'_> {
     pub(super) fn sized(&mut self, end: usize, usual: f64) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
+        if let Some((what, share)) = self.by_a_share(start, end) {
+            let factor = super::ratios::grown(share, usual > 1.0);
+            let factor =
+                factor.ok_or_else(|| self.not_understood("say by how much, and leave some of it"))?;
+            self.at = end;
+            return Ok(vec![vec![Wish::Scale { what, factor }]]);
+        }
         if let Some(wish) = self.scaled(start, end) {
             self.at = end;
-            return Ok(vec![vec![self.by_a_share(wish, (start, end), usual)]]);
+            return Ok(vec![vec![wish]]);
         }
         // "Shrink the statue by one metre".
         let metres = (start + 1..end).find_map(|at| {
@@ -42,25 +49,15 @@ impl Reader<'_> {
         Ok(vec![vec![Wish::Scale { what, factor: usual }]])
     }
 
-    /// "Enlarge the mailbox by half" and "shrink it by a third": so much of what it is more, or less.
-    fn by_a_share(&self, wish: Wish, (start, end): (usize, usize), usual: f64) -> Wish {
-        const SHARES: &[&str] = &[
-            "by half",
-            "by a half",
-            "by one half",
-            "by a third",
-            "by one third",
-            "by a quarter",
-            "by one quarter",
-        ];
-        let says_so = (start..end).any(|at| longest_phrase(&self.lexemes[at..end], SHARES).is_some());
-        match wish {
-            Wish::Scale { what, factor } if says_so && factor < 1.0 => {
-                let factor = if usual > 1.0 { 1.0 + factor } else { 1.0 - factor };
-                Wish::Scale { what, factor }
-            }
-            wish => wish,
-        }
+    /// "Enlarge the mailbox by half" and "shrink it by 30 percent": things, and so much of what they are by which they are to be larger, or smaller.
+    fn by_a_share(&self, start: usize, end: usize) -> Option<(Vec<Reference>, f64)> {
+        let end = self.before_politeness(start, end);
+        (start + 1..end).find_map(|cut| {
+            let by = longest_phrase(&self.lexemes[cut..end], &["by", "in size by", "in height by"])?;
+            let (share, words) = super::ratios::share(&self.lexemes[cut + by..end])?;
+            let what = self.things(start, cut).ok().filter(|_| cut + by + words == end)?;
+            Some((what, share))
+        })
     }
 
     /// Things, and behind them a size.
@@ -105,8 +102,7 @@ impl Reader<'_> {
             ],
         );
         if whose.is_some_and(|words| self.before_politeness(start, end) <= start + words) {
-            let what =
-                vec![super::super::clause::Reference::to(super::super::clause::Target::It, "it".to_owned())];
+            let what = vec![Reference::to(super::super::clause::Target::It, "it".to_owned())];
             self.at = end;
             return Ok(vec![vec![Wish::Scale { what, factor }]]);
         }

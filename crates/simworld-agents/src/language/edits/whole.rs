@@ -161,7 +161,7 @@ fn nearby(lexemes: &mut Vec<Lexeme>) {
 }
 
 /// Behind "the old town" and the like, if that is what begins there.
-fn whole_at(lexemes: &[Lexeme], from: usize) -> Option<usize> {
+pub(super) fn whole_at(lexemes: &[Lexeme], from: usize) -> Option<usize> {
     let whole = from + longest_phrase(lexemes.get(from..)?, ARTICLE).unwrap_or(0);
     WHOLE.iter().any(|word| is_word(lexemes, whole, word)).then_some(whole + 1)
 }

@@ -20,6 +20,7 @@ const PLAINER: &[(&Phrases, &str)] = &[
     (&Phrases::of(&["it has here", "has it here", "there has here", "it gives here", "gives it here"]), "are there"),
     (&Phrases::of(&["i would want", "we would want"]), "i want"),
     (&Phrases::of(&["if it makes you no trouble", "if it makes no trouble", "if it is no trouble for you"]), "please"),
+    (&Phrases::of(&["per cent", "per cents", "per centum", "pct"]), "percent"),
     (&Phrases::of(&["with the exception of", "with exception of", "with the sole exception of", "excepting", "to the exclusion of"]), "except for"),
 ];
 /// What is said while somebody thinks.
