@@ -4,6 +4,7 @@
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
 mod afterthoughts;
+mod anew;
 mod answers;
 mod antecedents;
 mod apart;
@@ -15,10 +16,13 @@ mod bare;
 mod bounds;
 mod breaks;
 mod busy;
+mod but_me;
 mod casual;
 mod change;
 mod chatter;
 mod chatty;
+mod clock;
+mod compared;
 mod complaints;
 mod conditions;
 mod doubted;
@@ -65,6 +69,7 @@ mod plain;
 mod polite;
 mod portions;
 mod predicates;
+mod questions;
 mod remaining;
 mod remarked;
 mod remarks;
@@ -78,8 +83,10 @@ mod said_beside;
 mod sayings;
 mod says;
 mod sells_both;
+mod set_scenes;
 mod settle;
 mod several_nearest;
+mod shades;
 mod shared;
 mod shares;
 mod sizes;
@@ -106,6 +113,7 @@ mod weather_told;
 mod which;
 mod whole;
 mod wish;
+mod withdrawn;
 mod wording;
 pub(super) mod words;
 
@@ -391,6 +399,11 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(topics::words())
         .chain(originals::words())
         .chain(texts::words())
+        .chain(clock::words())
+        .chain(shades::words())
+        .chain(withdrawn::words())
+        .chain(but_me::words())
+        .chain(anew::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.
