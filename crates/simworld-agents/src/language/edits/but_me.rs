@@ -34,11 +34,6 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     lexemes.drain(from..end);
 }
 
-/// Every word of the table, for the spelling.
-pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    BUT_ME.iter().flat_map(|phrase| phrase.split(' '))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::super::lexer::rewritten;

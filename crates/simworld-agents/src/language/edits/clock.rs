@@ -14,7 +14,7 @@ pub(super) const NAMED_HOURS: &[(&[&str], f64)] = &[(&["noon", "midday"], 12.0),
 const PARTS: &[(&[&str], f64)] = &[(&["quarter", "a quarter"], 15.0), (&["half"], 30.0)];
 const UNITS: &[&str] = &["minutes", "minute", "mins", "min"];
 const PAST: &[&str] = &["past", "after"];
-const TO: &[&str] = &["to", "before", "till", "til"];
+const TO: &[&str] = &["to", "before", "till", "until"];
 /// Behind a time whose minutes are a bare number, which may else be a range: "five to ten chairs".
 #[rustfmt::skip]
 const BEHIND: &[&str] = &["am", "pm", "a m", "p m", "in the", "at night", "oclock", "o clock", "sharp", "on the dot", "and", "please", "now", "today", "with"];

@@ -400,10 +400,6 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(originals::words())
         .chain(texts::words())
         .chain(clock::words())
-        .chain(shades::words())
-        .chain(withdrawn::words())
-        .chain(but_me::words())
-        .chain(anew::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

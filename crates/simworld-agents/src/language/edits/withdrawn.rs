@@ -30,6 +30,7 @@ const CONDITIONS: &[&str] = &["if", "unless", "otherwise", "else", "case", "shou
 
 /// What was said behind the last order.
 #[derive(Default)]
+#[expect(clippy::struct_excessive_bools, reason = "four independent facts, each read by itself")]
 struct Said {
     thought_over: bool,
     forgets: bool,
@@ -86,11 +87,6 @@ fn said_behind(rest: &[Lexeme]) -> Option<Said> {
         }
     }
     Some(said)
-}
-
-/// Every word of these tables, for the spelling.
-pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    [LEADS, IDLE, FORGETS, STAYS, LEAVES].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
 }
 
 #[cfg(test)]
