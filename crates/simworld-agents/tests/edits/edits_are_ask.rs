@@ -132,15 +132,11 @@ fn what_is_taken_back_as_a_whole_changes_nothing() {
         ],
     );
     come_to("quarter", &[("Paint the school yellow... no, never mind, leave it.", "")]);
-    // What may be said of something else takes nothing back.
-    mean(
-        "campus",
-        "put a bench next to the statue",
-        &[
-            "Put a bench next to the statue, never mind the noise.",
-            "Never mind. Put a bench next to the statue.",
-        ],
-    );
+    // "It" is the last of two, and nobody knows whether the first stays too.
+    let city = City::read("campus");
+    let words = "Paint the statue red and the hydrant blue, no, leave it.";
+    let nothing = edits_of(&city, "leave all the things as they are").unwrap();
+    assert_ne!(edits_of(&city, words), Ok(nothing), "{words}");
 }
 
 #[test]
@@ -181,9 +177,8 @@ fn what_is_no_question_about_the_scene_stays_refused() {
     for words in [
         "Who won the regatta last year?",
         "Which is the best way to live?",
-        "Where can I buy a yacht?",
+        "Where do they sell dreams?",
         "Who sells dreams?",
-        "What can one buy at the moon?",
     ] {
         assert!(edits_of(&city, words).is_err(), "{words}");
     }
