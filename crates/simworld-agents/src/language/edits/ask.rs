@@ -70,7 +70,7 @@ impl Reader<'_> {
     pub(super) fn asked_about(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
         #[rustfmt::skip]
         const COPULA: &Phrases = &Phrases::of(&["are there", "are", "is there", "is", "stand", "sit", "do we have", "are standing", "there are",
-            "exist", "there is", "lie", "are parked", "can be found", "are located", "have we got", "are to be found"]);
+            "exist", "there is", "lie", "grow", "live", "hang", "are growing", "are planted", "are sitting", "are waiting", "are lying", "are parked", "can be found", "are located", "have we got", "are to be found"]);
         let end = self.before_politeness(start, end);
         let cut = (start + 1..end).find(|at| longest_phrase(&self.lexemes[*at..end], COPULA).is_some());
         if let Some(cut) = cut

@@ -3,6 +3,7 @@
 
 use simworld_core::seam::PlanError;
 
+use super::super::clause::Reference;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::parse::Reader;
@@ -180,7 +181,7 @@ impl Reader<'_> {
         if from >= end || is_order || longest_phrase(&self.lexemes[from..end], NONE).is_some() {
             return Ok(None);
         }
-        match self.asked_about(from, end) {
+        match self.asked_about_anywhere(from, end) {
             Ok(what) if super::says::is_it(&what) => Ok(None),
             Ok(mut what) => {
                 what.count = super::super::clause::Count::All;
@@ -190,6 +191,20 @@ impl Reader<'_> {
             Err(error @ PlanError::NotFound { .. }) if !self.has_verb(from, end) => Err(error),
             Err(_) => Ok(None),
         }
+    }
+
+    /// What is asked about, wherever it may be: "a fountain somewhere" is a fountain.
+    fn asked_about_anywhere(&self, from: usize, end: usize) -> Result<Reference, PlanError> {
+        self.asked_about(from, end).or_else(|error| {
+            let stop = self.without_there(from, end);
+            if stop >= end {
+                return Err(error);
+            }
+            self.asked_about(from, stop).map_err(|other| match other {
+                PlanError::NotFound { .. } => other,
+                _ => error,
+            })
+        })
     }
 
     /// "Leave the red bench alone", "do not move the statue", "hands off the fountain".

@@ -5,6 +5,7 @@ use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
+use super::forms::{word, word_at};
 use super::parse::{Reader, joint};
 use super::wish::{Anchor, Where, Wish};
 
@@ -22,6 +23,26 @@ const LOOKS: &Phrases = &Phrases::of(&["facing", "facing towards", "facing to", 
     "and let it look at", "and let it face", "and let him face", "and let her face", "that looks over to", "both turned to", "facing at", "and towards"]);
 /// That things look at one another.
 const MUTUAL: &[&str] = &["each other", "one another", "eachother", "each the other"];
+
+/// "Then set him facing Eve" has him look at her, and puts him nowhere.
+pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    const SETS: &[&str] = &["set", "stand", "have", "get", "keep", "leave", "turn"];
+    #[rustfmt::skip]
+    const FACES: &Phrases = &Phrases::of(&["facing", "facing towards", "facing to", "looking at", "looking towards", "looking toward", "gazing at", "staring at"]);
+    let found = (0..lexemes.len()).find_map(|at| {
+        let is_told = SETS.contains(&word(lexemes, at))
+            && matches!(word(lexemes, at + 1), "it" | "him" | "her" | "them");
+        let faces = longest_phrase(lexemes.get(at + 2..)?, FACES).filter(|_| is_told)?;
+        let rest = lexemes.get(at + 2 + faces..).unwrap_or_default();
+        // "Set them facing each other" is read as it stands.
+        let is_open = rest.first().is_none_or(is_mark) || longest_phrase(rest, MUTUAL).is_some();
+        (!is_open).then_some((at, faces))
+    });
+    let Some((at, faces)) = found else { return };
+    let place = lexemes[at].clone();
+    lexemes.splice(at + 2..at + 2 + faces, [word_at(&place, "face")]);
+    lexemes[at] = word_at(&place, "make");
+}
 
 impl Reader<'_> {
     /// A wish, and behind it which way what it is about looks.

@@ -210,7 +210,7 @@ impl Reader<'_> {
     }
 
     /// Where the words end without "somewhere", "around" and the like.
-    fn without_there(&self, from: usize, end: usize) -> usize {
+    pub(super) fn without_there(&self, from: usize, end: usize) -> usize {
         const THERE: &Phrases = &Phrases::of(&[
             "somewhere",
             "around",

@@ -13,7 +13,11 @@ use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::{
-    Focus, Reading, breaks, casual, chatter, doings, doubted, dress_new, gone_by_name, gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt, retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole, wording,
+    Focus, Reading, anew, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing, gone_by_name,
+    gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others,
+    paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt,
+    retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole,
+    withdrawn, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -43,6 +47,10 @@ pub(crate) fn read(
         return read;
     }
     let read = ear.in_other_words(&heard, read);
+    if ear.is_granted(&read) {
+        return read;
+    }
+    let read = ear.told_anew(&heard, read);
     if ear.is_granted(&read) { read } else { ear.with_what_is_named(&heard, read) }
 }
 
@@ -84,6 +92,8 @@ impl Ear<'_> {
         let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
         let several = reader.with_several_nearest(&finder);
         let reader = Reader { lexemes: several.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let compared = reader.with_compared(&finder);
+        let reader = Reader { lexemes: compared.as_deref().unwrap_or(reader.lexemes), ..reader };
         let (mut wishes, held) = wishes_of(reader, scene, stock, focus)?;
         let said_first = held.as_ref().and_then(|_| wishes.first().cloned());
         if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
@@ -164,7 +174,23 @@ impl Ear<'_> {
     ) -> Result<Reading, EditError> {
         let Self { words, scene, stock, focus } = *self;
         let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
-        for way in lastly::ways(words, heard, &names, stock, focus) {
+        self.first_granted(lastly::ways(words, heard, &names, stock, focus), read)
+    }
+
+    /// As [`Self::in_other_words`], by questions in other words and by scenes that are set.
+    fn told_anew(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
+        let Self { words, scene, stock, focus } = *self;
+        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
+    }
+
+    /// The first of some ways to say a sentence that is granted; or else what is wrong with it.
+    fn first_granted(
+        &self,
+        ways: Vec<Vec<Lexeme>>,
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        for way in ways {
             let anew = self.read(way.clone());
             let anew = if self.is_granted(&anew) { anew } else { self.without_chatter(way, anew) };
             if self.is_granted(&anew) {
@@ -222,6 +248,9 @@ fn put_plainly(
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);
     meant::in_plain_words(lexemes);
+    withdrawn::in_plain_words(lexemes);
+    but_me::in_plain_words(lexemes);
+    facing::in_plain_words(lexemes);
     margins::in_plain_words(lexemes);
     remarked::in_plain_words(lexemes);
     hesitations::in_plain_words(words, lexemes);

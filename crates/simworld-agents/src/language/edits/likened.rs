@@ -1,6 +1,7 @@
 //! New things that are to be like one that is there, or are spoken of as the new one: "another postbox, exactly like the one we've got"
 //! is a copy of the postbox, and "the new one" behind what was just asked for is that.
 
+use super::super::compass::DIRECTIONS;
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
@@ -16,6 +17,9 @@ const LIKE: &Phrases = &Phrases::of(&["like", "exactly like", "just like", "prec
 const THERE: &[&str] = &["that", "which", "is", "s", "stands", "stand", "we", "you", "they", "i", "have", "ve", "weve", "youve", "theyve", "ive", "got", "had", "has", "already", "there", "thats", "now", "standing", "over", "own"];
 /// A noun has no more words than that.
 const LONGEST: usize = 3;
+/// Before a noun, that it is to be one more.
+#[rustfmt::skip]
+const ONE_MORE: &Phrases = &Phrases::of(&["another", "yet another", "one more", "a second", "a further", "an additional", "an extra", "one other"]);
 /// What stands for one more of what was spoken of, and for that.
 const MORE: &[&str] = &["another one", "another", "one more"];
 const THAT: &[&str] = &["that one", "this one", "that thing", "this thing", "that", "this"];
@@ -51,13 +55,22 @@ fn like_it(lexemes: &mut Vec<Lexeme>) {
 
 /// "Another bench like the red one": a copy of the red bench.
 fn copied(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
-    let another = (0..lexemes.len()).find(|at| word(lexemes, *at) == "another")?;
-    let noun = another + 1;
+    (0..lexemes.len()).find_map(|at| {
+        let more = longest_phrase(&lexemes[at..], ONE_MORE)?;
+        copied_at(lexemes, at, at + more)
+    })
+}
+
+/// As [`copied`], of the noun behind the words that say so.
+fn copied_at(lexemes: &[Lexeme], another: usize, noun: usize) -> Option<Vec<Lexeme>> {
     let (stop, behind) = (noun + 1..lexemes.len().min(noun + LONGEST + 1)).find_map(|stop| {
         let from = stop + usize::from(is_mark(&lexemes[stop]));
         longest_phrase(&lexemes[from..], LIKE).map(|words| (stop, from + words))
     })?;
     let name = lexemes.get(noun..stop).filter(|name| !name.iter().any(is_mark))?;
+    // "One more like that one" is read elsewhere.
+    let is_another = word(lexemes, noun - 1) == "another";
+    longest_phrase(&lexemes[behind..], &["the", "our", "ours"]).or(is_another.then_some(0))?;
     // "Like the one we have", "like ours", "like the red one".
     let the = longest_phrase(&lexemes[behind..], &["the", "that", "this", "our", "those"]).unwrap_or(0);
     let paint = longest(&lexemes[behind + the..], PAINTS).map_or(0, |(_, words)| words);
@@ -80,7 +93,12 @@ fn copied(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let is_apart = lexemes.get(stop).is_some_and(is_mark);
     let ends = lexemes.get(end + 1).is_none_or(is_mark);
     end += usize::from(is_apart && ends && word(lexemes, end) == "here");
-    end += usize::from(is_apart && lexemes.get(end).is_some_and(|mark| mark.token == Token::Comma));
+    // "..., east of the kiosk" is where the copy goes.
+    let is_place = lexemes
+        .get(end + 1..)
+        .is_some_and(|rest| longest(rest, &WAYS).is_some() || longest(rest, DIRECTIONS).is_some());
+    let drops = is_apart || is_place && !is_another;
+    end += usize::from(drops && lexemes.get(end).is_some_and(|mark| mark.token == Token::Comma));
     let place = &lexemes[another];
     let plain: Vec<Lexeme> = words_at(place, "a copy of the")
         .chain(lexemes[behind + the..behind + the + paint].iter().cloned())
@@ -133,6 +151,11 @@ mod tests {
             "i want a copy of the postbox next to carol"
         );
         assert_eq!(plain("another bench like the red one here"), "a copy of the red bench here");
+        assert_eq!(
+            plain("one more fountain like the one we have, east of the kiosk"),
+            "a copy of the fountain east of the kiosk"
+        );
+        assert_eq!(plain("a second bench by the red one"), "a second bench by the red one");
         assert_eq!(plain("another bench next to the red one"), "another bench next to the red one");
     }
 

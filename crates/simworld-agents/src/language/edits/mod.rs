@@ -4,6 +4,7 @@
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
 mod afterthoughts;
+mod anew;
 mod answers;
 mod antecedents;
 mod apart;
@@ -15,10 +16,13 @@ mod bare;
 mod bounds;
 mod breaks;
 mod busy;
+mod but_me;
 mod casual;
 mod change;
 mod chatter;
 mod chatty;
+mod clock;
+mod compared;
 mod complaints;
 mod conditions;
 mod doings;
@@ -72,6 +76,7 @@ mod polite;
 mod portions;
 mod predicates;
 mod presence;
+mod questions;
 mod ratios;
 mod remaining;
 mod remarked;
@@ -86,6 +91,7 @@ mod said_beside;
 mod sayings;
 mod says;
 mod sells_both;
+mod set_scenes;
 mod settle;
 mod several_nearest;
 mod shades;
@@ -116,6 +122,7 @@ mod weather_told;
 mod which;
 mod whole;
 mod wish;
+mod withdrawn;
 mod wording;
 pub(super) mod words;
 
@@ -402,6 +409,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(originals::words())
         .chain(texts::words())
         .chain(periphrases::words())
+        .chain(clock::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

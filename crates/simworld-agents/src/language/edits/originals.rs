@@ -11,7 +11,8 @@ use super::resolve::Finder;
 use super::words::{VERBS, Verb};
 
 /// What was copied, as it is called behind that.
-const ORIGINAL: &Phrases = &Phrases::of(&["the original one", "the original", "the one i copied"]);
+#[rustfmt::skip]
+const ORIGINAL: &Phrases = &Phrases::of(&["the original one", "the original", "the one i copied", "the old one", "the one that was copied", "the one you copied"]);
 /// What is no thing that was copied: "in its original place".
 #[rustfmt::skip]
 const NO_THINGS: &[&str] = &["place", "spot", "position", "location", "colour", "color", "size", "name", "copy", "plan", "idea", "site"];

@@ -214,7 +214,14 @@ impl Finder<'_> {
     fn listed(&self, what: Option<&Reference>, at: &[Where]) -> Result<Vec<EntityId>, EditError> {
         if let Some(what) = what {
             let is_nearest = matches!(what.relation, Some(Stands::NearestTo(..)))
-                || matches!(what.choice, Choice::Nearest | Choice::Farthest | Choice::Most(..));
+                || matches!(
+                    what.choice,
+                    Choice::Nearest
+                        | Choice::Farthest
+                        | Choice::Most(..)
+                        | Choice::Compass(_)
+                        | Choice::Side(_)
+                );
             if is_nearest && (!plural(what) || is_of_several(what)) {
                 return Ok(vec![self.one(&Reference { count: Count::One, ..what.clone() })?]);
             }

@@ -20,7 +20,7 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["bonny", "bonnie"], "nice"), (&["nearhaun"], "near"), (&["abune"], "above"), (&["stane"], "stone"), (&["fower"], "four"), (&["alang"], "along"),
     (&["atween"], "between"), (&["aroon"], "around"), (&["oan"], "on"), (&["motor"], "car"), (&["motors"], "cars"), (&["dae"], "do"), (&["gonnae"], "will you"),
     (&["dug"], "dog"), (&["dugs"], "dogs"), (&["bairns"], "children"), (&["richt"], "right"), (&["haud"], "hold"), (&["guid"], "good"),
-    (&["em"], "them"), (&["xcept", "exept"], "except"), (&["til"], "until"), (&["w"], "with"),
+    (&["em"], "them"), (&["sum"], "some"), (&["xcept", "exept"], "except"), (&["til"], "until"), (&["w"], "with"),
     (&["doggo", "doggos", "pupper"], "dog"), (&["outta"], "out of"), 
     (&["gizza"], "give us a"), (&["giz"], "give us"), (&["dyou"], "do you"), (&["couldya"], "could you"), (&["wouldya"], "would you"), (&["canya"], "can you"),
     (&["lil"], "little"), (&["nxt to"], "next to"), (&["dont wanna"], "dont want to"), (&["aint"], "is not"), (&["tryna"], "trying to"),
@@ -77,6 +77,8 @@ pub(super) fn in_plain_spelling(words: &str, lexemes: &mut Vec<Lexeme>) {
                 && (*plain != "what" || at == 0 || longest_phrase(&lexemes[at - 1..], &["the", "that", "a"]).is_none())
                 // "The person who stands closest to it" asks nothing.
                 && (!["list people", "who is the person nearest to"].contains(plain) || at == 0)
+                // "The sum of them" is no slip, and "put on sum fog" is one.
+                && (*plain != "some" || at > 0 && longest_phrase(&lexemes[at - 1..], &["the", "a", "in"]).is_none() && longest_phrase(&lexemes[at + count..], &["of", "up", "total"]).is_none())
                 && (*plain != "place" || is_new() || numbers::count(&lexemes[at + count..]).is_some())
         };
         let Some((plain, count)) = longest(&lexemes[at..], RESPELT).filter(fits) else {

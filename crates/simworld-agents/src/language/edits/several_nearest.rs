@@ -44,7 +44,7 @@ impl Reader<'_> {
     }
 
     /// How many words a noun of things has that stands here.
-    fn noun_at(&self, at: usize) -> Option<usize> {
+    pub(super) fn noun_at(&self, at: usize) -> Option<usize> {
         let rest = self.lexemes.get(at..)?;
         category(rest)
             .map(|(_, words)| words)
@@ -53,7 +53,7 @@ impl Reader<'_> {
     }
 
     /// What something is near that is named here, if it is one thing, and where its name ends.
-    fn anchor_at(&self, from: usize, finder: &Finder<'_>) -> Option<(usize, EntityId)> {
+    pub(super) fn anchor_at(&self, from: usize, finder: &Finder<'_>) -> Option<(usize, EntityId)> {
         let most = self.lexemes.len().min(from + LONGEST);
         (from + 1..=most).rev().find_map(|end| {
             let anchor = self.one_of(from, end).ok()?;

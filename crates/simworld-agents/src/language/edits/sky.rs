@@ -6,6 +6,7 @@ use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{fits, longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
+use super::clock::{HOURS, MINUTES, NAMED_HOURS, beside_the_hour};
 use super::parse::Reader;
 use super::words::{ENDINGS, SKIES, SKY_NOISE, Sky, warmth_of};
 
@@ -142,7 +143,8 @@ impl Reader<'_> {
             heard.stops = true;
             return Some(words + the(words));
         }
-        if stops.is_none() && longest_phrase(rest, DENIES).is_some() {
+        // "Not a cloud in the sky" is a sky.
+        if stops.is_none() && longest_phrase(rest, DENIES).is_some() && longest(rest, &SKIES).is_none() {
             return None;
         }
         let noise = longest_phrase(rest, SKY_NOISE).unwrap_or(0);
@@ -189,25 +191,28 @@ impl Reader<'_> {
     }
 }
 
-/// "8 pm", "20:30", "half past seven in the morning", "noon".
+/// "8 pm", "20:30", "half past seven in the morning", "a quarter to nine", "ten past noon".
 pub(in crate::language) fn hour(lexemes: &[Lexeme]) -> Option<(Sky, usize)> {
-    const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
-    const BEFORE: &[&str] = &["am", "a m", "in the morning"];
-    let half = longest_phrase(lexemes, &["half past"]).unwrap_or(0);
+    let (minutes, lead) = beside_the_hour(lexemes).unwrap_or((0.0, 0));
+    let rest = &lexemes[lead..];
+    if let Some((named, words)) = longest(rest, NAMED_HOURS).filter(|_| lead > 0) {
+        let hour = named + minutes / MINUTES;
+        return Some((Sky::Hour((hour + HOURS) % HOURS), lead + words));
+    }
     // "A little rain" is no hour.
-    let is_article = ["a", "an"].iter().any(|word| fits(&lexemes[half..], word).is_some());
+    let is_article = ["a", "an"].iter().any(|word| fits(rest, word).is_some());
     // Nor is "half of what it is".
-    let is_half = fits(&lexemes[half..], "half").is_some();
-    let (number, mut at) = numbers::number(&lexemes[half..]).filter(|_| !is_article && !is_half)?;
-    at += half;
-    let mut hour = number + if half > 0 { 0.5 } else { 0.0 };
+    let is_half = fits(rest, "half").is_some();
+    let (number, mut at) = numbers::number(rest).filter(|_| !is_article && !is_half)?;
+    at += lead;
+    let mut hour = number + minutes / MINUTES;
     // "20:30" is two numbers with a mark between.
     if let [mark, rest @ ..] = &lexemes[at..]
         && mark.token == Token::Break
         && let Some(Token::Number(minutes)) = rest.first().map(|lexeme| &lexeme.token)
         && (0.0..60.0).contains(minutes)
     {
-        hour += minutes / 60.0;
+        hour += minutes / MINUTES;
         at += 2;
     }
     // "Seven thirty".
@@ -216,27 +221,38 @@ pub(in crate::language) fn hour(lexemes: &[Lexeme]) -> Option<(Sky, usize)> {
         && (10.0..60.0).contains(&minutes)
         && hour.fract() == 0.0
     {
-        hour += minutes / 60.0;
+        hour += minutes / MINUTES;
         at += words;
     }
     at += longest_phrase(&lexemes[at..], &["oclock", "o clock", "hours", "h"]).unwrap_or(0);
-    if let Some(count) = longest_phrase(&lexemes[at..], AFTER) {
-        at += count;
-        let early = fits(&lexemes[at - count..], "at night").is_some() && hour < 6.0;
-        if hour < 12.0 && !early {
-            hour += 12.0;
-        }
-    } else if let Some(count) = longest_phrase(&lexemes[at..], BEFORE) {
-        at += count;
-        if (12.0..13.0).contains(&hour) {
-            hour -= 12.0;
-        }
-    }
+    let (hour, words) = in_the_day(hour, &lexemes[at..]);
+    at += words;
     // "6 am sharp", and "sharp" behind a bare number is no time.
     if !is_bare(lexemes, at) {
         at += longest_phrase(&lexemes[at..], &["sharp", "on the dot"]).unwrap_or(0);
     }
-    (0.0..=24.0).contains(&hour).then_some((Sky::Hour(hour % 24.0), at))
+    (0.0..=HOURS).contains(&hour).then_some((Sky::Hour(hour % HOURS), at))
+}
+
+/// An hour by the half of the day that is told behind it, and how many words tell it: "in the evening", "am".
+fn in_the_day(hour: f64, behind: &[Lexeme]) -> (f64, usize) {
+    const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
+    const BEFORE: &[&str] = &["am", "a m", "in the morning"];
+    let is_twelve = (12.0..13.0).contains(&hour);
+    if let Some(count) = longest_phrase(behind, AFTER) {
+        let at_night = fits(behind, "at night").is_some();
+        // "Two at night" is early, and "twelve at night" begins the day.
+        let shift = if at_night && is_twelve {
+            -12.0
+        } else if hour < 12.0 && !(at_night && hour < 6.0) {
+            12.0
+        } else {
+            0.0
+        };
+        return (hour + shift, count);
+    }
+    let count = longest_phrase(behind, BEFORE).unwrap_or(0);
+    (if count > 0 && is_twelve { hour - 12.0 } else { hour }, count)
 }
 
 /// Sun, weather and season as they are wished for.

@@ -194,18 +194,25 @@ fn coordinates(lexemes: &mut Vec<Lexeme>) {
     lexemes.splice(at..=y, point);
 }
 
-/// "Dogs, how many of them do we have?" is "how many dogs are there".
+/// "Dogs, how many of them do we have?" is "how many dogs are there", and so is "chairs and tables together, how many is that?" of both.
 fn asked_of_topic(lexemes: &mut Vec<Lexeme>) {
     const OF_THEM: &Phrases =
         &Phrases::of(&["how many of them", "how many of those", "how many of these", "how many"]);
     #[rustfmt::skip]
-    const HAVE: &Phrases = &Phrases::of(&["we have", "do we have", "are there", "there are", "have we", "have we got", "are here", "you have", "do you see", "do you count", "exist"]);
+    const HAVE: &Phrases = &Phrases::of(&["we have", "do we have", "are there", "there are", "have we", "have we got", "are here", "you have", "do you see", "do you count", "exist",
+        "is that", "is that in total", "is that altogether", "is that in all", "is that together", "is that all in all", "is it", "is it in total", "is it altogether", "does that make", "does that make in total", "does that make altogether", "does that make together",
+        "would that be", "would that make", "do they make", "are they", "are they together", "are they in total", "are there together", "are there in total", "are there altogether", "are there in all", "do we have together", "do we have in total", "do we have altogether"]);
+    /// Behind several that are counted as one.
+    #[rustfmt::skip]
+    const TOGETHER: &Phrases = &Phrases::of(&["together", "all together", "altogether", "combined", "in total", "in all", "all told", "taken together", "put together", "added together", "added up", "counted together"]);
     /// "The red cars, how many are there?"
     const LONGEST_TOPIC: usize = 5;
-    let Some(mark) = lexemes.iter().position(is_mark).filter(|mark| (1..=LONGEST_TOPIC).contains(mark))
-    else {
+    let Some(mark) = lexemes.iter().position(is_mark) else { return };
+    let topic =
+        (0..mark).find(|at| longest_phrase(&lexemes[*at..mark], TOGETHER) == Some(mark - at)).unwrap_or(mark);
+    if !(1..=LONGEST_TOPIC).contains(&topic) {
         return;
-    };
+    }
     let Some(asks) = longest_phrase(&lexemes[mark + 1..], OF_THEM) else { return };
     let tail = mark + 1 + asks;
     let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
@@ -213,7 +220,7 @@ fn asked_of_topic(lexemes: &mut Vec<Lexeme>) {
         return;
     }
     let place = lexemes[mark].clone();
-    let topic: Vec<Lexeme> = lexemes[..mark]
+    let topic: Vec<Lexeme> = lexemes[..topic]
         .iter()
         .filter(|lexeme| !matches!(&lexeme.token, Token::Word(word) if word == "the"))
         .cloned()
