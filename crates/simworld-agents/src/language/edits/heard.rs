@@ -43,15 +43,14 @@ pub(crate) fn read(
         return read;
     }
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
-    if ear.is_granted(&read) {
-        return read;
-    }
-    let read = ear.in_other_words(&heard, read);
-    if ear.is_granted(&read) {
-        return read;
-    }
-    let read = ear.told_anew(&heard, read);
-    if ear.is_granted(&read) { read } else { ear.with_what_is_named(&heard, read) }
+    let stages =
+        [Ear::in_other_words, Ear::placed, Ear::told_anew, Ear::without_statements, Ear::with_what_is_named];
+    stages.into_iter().fold(
+        read,
+        |read, stage| {
+            if ear.is_granted(&read) { read } else { stage(&ear, &heard, read) }
+        },
+    )
 }
 
 /// A sentence, and the scene in which it is heard.
@@ -197,10 +196,38 @@ impl Ear<'_> {
                 return anew;
             }
         }
+        read
+    }
+
+    /// As [`Self::in_other_words`], by where things stand that are told round about.
+    fn placed(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
+        let Self { words, scene, stock, focus } = *self;
+        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
         let mut spelt = heard.to_vec();
         slips::correct(words, &mut spelt, &names, stock, &focus.streets);
         let placed = [heard, &spelt[..]].map(|said| placed::ways(words, said, &names)).concat();
         placed.into_iter().map(|way| self.read(way)).find(|anew| self.is_granted(anew)).unwrap_or(read)
+    }
+
+    /// The sentence without the statements beside its request, in any of the other ways.
+    fn without_statements(
+        &self,
+        heard: &[Lexeme],
+        mut read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let Self { scene, stock, focus, .. } = *self;
+        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        for way in statements::without(heard, &names) {
+            let otherwise = lastly::in_other_words(&way);
+            read = self.first_granted(vec![way.clone(), otherwise], read);
+            for stage in [Self::placed, Self::told_anew] {
+                if self.is_granted(&read) {
+                    return read;
+                }
+                read = stage(self, &way, read);
+            }
+        }
+        read
     }
 }
 

@@ -13,7 +13,7 @@ use super::forms::{word, word_at, words_at};
 use super::retold::{Turns, told_by};
 use super::stood::point_at;
 use super::words::{VERBS, Verb};
-use super::{Focus, busy, misspelt, remarked, said_beside, slips, statements};
+use super::{Focus, busy, misspelt, remarked, said_beside, slips};
 use crate::editing::Stock;
 
 /// Turns of phrase and what they mean, of one sentence each.
@@ -177,9 +177,12 @@ pub(super) fn ways(
     let busy = busy::in_plain_words(heard).or_else(|| busy::in_plain_words(&plain));
     let ways = sounded.into_iter().chain(placed).chain(is_told.then_some(told));
     let ways = ways.chain(is_unspelt.then_some(unspelt)).chain(busy).chain(remarked).chain(told_besides);
-    let stated = statements::without(heard, names);
-    let stated_otherwise = stated.clone().into_iter().map(|way| told_by(&way, &[LASTLY]));
-    ways.chain(beside).chain(named).chain(rest).chain(stated).chain(stated_otherwise).collect()
+    ways.chain(beside).chain(named).chain(rest).collect()
+}
+
+/// A sentence by the turns of phrase that are tried last.
+pub(super) fn in_other_words(lexemes: &[Lexeme]) -> Vec<Lexeme> {
+    told_by(lexemes, &[LASTLY])
 }
 
 fn is_same(one: &[Lexeme], other: &[Lexeme]) -> bool {

@@ -149,7 +149,7 @@ fn standing_alone(lexemes: &[Lexeme], mut rest: Vec<Lexeme>, out: &[Clause]) -> 
     }
     let start = rest.first()?.start;
     let at = rest.iter().position(|lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme)))?;
-    let mut nouns = out.iter().filter(|clause| lexemes[clause.from].start < start).flat_map(|clause| {
+    let mut nouns = out.iter().filter(|clause| lexemes[clause.from].start < start).filter_map(|clause| {
         let from = clause.from;
         plain_noun(&lexemes[from..clause.end]).map(|words| lexemes[from..from + words].to_vec())
     });
