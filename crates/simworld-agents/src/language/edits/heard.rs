@@ -217,7 +217,14 @@ impl Ear<'_> {
     ) -> Result<Reading, EditError> {
         let Self { scene, stock, focus, .. } = *self;
         let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        let is_open = |refused: &EditError| {
+            matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. })
+        };
+        let mut asked = None;
         for way in statements::without(heard, &names) {
+            if asked.is_none() {
+                asked = Some(self.read(way.clone())).filter(|read| !read.as_ref().is_err_and(is_open));
+            }
             let otherwise = lastly::in_other_words(&way);
             read = self.first_granted(vec![way.clone(), otherwise], read);
             for stage in [Self::placed, Self::told_anew] {
@@ -227,7 +234,11 @@ impl Ear<'_> {
                 read = stage(self, &way, read);
             }
         }
-        read
+        // What somebody asks for and nobody has says more than that what he told of is not there.
+        match asked {
+            Some(asked) if !self.is_granted(&read) => asked,
+            _ => read,
+        }
     }
 }
 

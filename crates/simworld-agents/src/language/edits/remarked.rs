@@ -22,6 +22,10 @@ const EARLY: &Turns = &[
     ("id|wed|i|we|- would|- love|like|want N a|- way|much|far|lots|lot bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "make N D times as big"),
     ("P a|- way|much|far|lots|lot|- bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- times D", "P D times as big"),
     ("P a|- way|much|far|lots|lot bigger|larger ,|- like|say|maybe|perhaps|about|roughly|- D times", "P D times as big"),
+    ("O dig|drill|bore D P", "O put D P"),
+    ("P let D A stretch|gather|rest|play|dance|sing|perform|pose|meet|assemble|queue|linger|relax|jog|exercise|practise|picnic|camp|graze|bask|loiter just|right|directly|out|around|- W", "P put D A W"),
+    ("P the A that|which|who has|have D B standing|sitting|parked|lying|placed|- right|just|directly|- beside|near|behind to|- it|him|her|them", "P the A next to D B"),
+    ("P , and N F", "P , and make N F"),
     // What a sentence singles out is what it goes on about.
     ("W , line up D A", "line up D A W"),
     ("which|what things|objects|items are K", "list everything that is K"),

@@ -70,8 +70,19 @@ const NOBODY: &Phrases = &Phrases::of(&[
     "no wonder",
 ]);
 /// Before an order, and says nothing of it.
-const PRELUDES: &Phrases =
-    &Phrases::of(&["at least", "at any rate", "in any case", "at the very least", "for a start", "just"]);
+const PRELUDES: &Phrases = &Phrases::of(&[
+    "at least",
+    "at any rate",
+    "in any case",
+    "at the very least",
+    "for a start",
+    "just",
+    "so",
+    "that is why",
+    "which is why",
+    "therefore",
+    "hence",
+]);
 /// What begins a question about the scene, or what takes back.
 #[rustfmt::skip]
 const BEGINS: &Phrases = &Phrases::of(&["how many", "how much", "how far", "which", "what", "where is", "where are", "wheres", "who is", "whos", "is there", "are there", "no", "not the", "not a", "wait", "rather", "or rather", "or better", "better", "dont", "do not", "never", "if", "unless", "suppose", "say", "make", "let", "then"]);
@@ -91,7 +102,7 @@ const ADVERBS: &[&str] = &["never", "always", "often", "just", "really", "still"
 const BEFORE_NOUNS: &[&str] = &["a", "an", "the", "my", "our", "your", "his", "her", "its", "their", "this", "these", "those", "to", "of", "in", "on", "at", "by", "for", "with", "from", "near", "behind", "beside", "and", "or", "some", "any", "no", "two", "three", "four", "five", "six", "more", "every", "each", "new", "old", "big", "small", "tall", "little", "between", "along", "around", "next", "as", "than", "like", "into", "onto", "under", "over", "very", "about"];
 /// Clauses that are sayings, whole.
 #[rustfmt::skip]
-const SAYINGS: &Phrases = &Phrases::of(&["lets face it", "let us face it", "i gather", "out of shot", "out of mind", "out of sight", "third time this year", "first time this year", "second time this year", "third time this week", "if i may add something", "if i may say so", "if i may", "if you ask me", "if you must know", "would you believe it", "can you believe it",
+const SAYINGS: &Phrases = &Phrases::of(&["lets face it", "let us face it", "i gather", "show that", "show it", "do that", "do it", "make it so", "do so", "show me that", "that is my design", "out of shot", "out of mind", "out of sight", "third time this year", "first time this year", "second time this year", "third time this week", "if i may add something", "if i may say so", "if i may", "if you ask me", "if you must know", "would you believe it", "can you believe it",
     "atchoo", "go figure", "as they say", "so to speak", "so im told", "so i am told", "so i hear", "or so i hear", "or so im told", "or so they say", "or so it seems", "believe it or not", "mind you", "fair enough", "such is life", "thats life", "cest la vie", "what can you do", "what can i say", "what else", "who knows", "god knows", "heaven knows", "no offence", "no hard feelings", "long story",
     "say no more", "enough said", "case in point", "simple as that", "as simple as that", "plain and simple", "end of story", "full stop", "period", "job done", "done and dusted", "for what its worth", "for the record", "between you and me", "between us", "truth be told", "to be honest", "to be fair", "to be frank", "in all honesty", "rules are rules", "business is business", "safety first", "better late than never",
     "first come first served", "every single april", "every single year", "every single day", "every time", "every year", "every day", "every week", "every night", "every morning", "every evening", "year after year", "day after day", "day and night", "come rain or shine", "rain or shine", "time and again", "once again", "yet again", "all gone", "all of them gone", "long gone", "what a mess", "what a pity", "what a shame", "what a day", "what a view", "poor thing", "poor man", "poor woman", "poor devil", "lucky you", "lucky me", "silly me", "my fault", "my mistake", "no wonder", "small wonder", "hence the request", "hence the question"]);
@@ -164,6 +175,18 @@ pub(super) fn leave_out_early(words: &str, lexemes: &mut Vec<Lexeme>, names: &Na
     without_told_lists(lexemes, names);
     without_rhetorical(words, lexemes);
     without_sake(lexemes);
+    without_occasion(lexemes);
+}
+
+/// "It's lunchtime, so ...": an hour that is told as a reason is none that is wished for.
+fn without_occasion(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const OCCASIONS: &Phrases = &Phrases::of(&["its lunchtime", "it is lunchtime", "its lunch time", "its teatime", "its dinner time", "its dinnertime", "its bedtime", "its rush hour", "it is rush hour", "its closing time", "its almost noon", "its nearly noon", "its almost night", "its nearly night", "its getting late", "its getting dark", "it gets dark", "its market day", "it is market day", "its fish market day", "its harvest time", "its recess", "its break time", "its playtime"]);
+    let Some(words) = longest_phrase(lexemes, OCCASIONS) else { return };
+    let is_reason = lexemes.get(words).is_some_and(is_mark) && word(lexemes, words + 1) == "so";
+    if is_reason && lexemes.len() > words + 2 {
+        lexemes.drain(..words + 2);
+    }
 }
 
 /// "For the sake of the photograph move the statue": what for, before an order.
@@ -295,6 +318,9 @@ fn tells(clause: &[Lexeme], names: &Names<'_>) -> bool {
     if is_saying(clause) {
         return true;
     }
+    if is_purpose(clause, names) {
+        return true;
+    }
     let lead = longest_phrase(clause, LEADS);
     let rest = &clause[lead.unwrap_or(0)..];
     let first = word(clause, 0);
@@ -313,6 +339,18 @@ fn tells(clause: &[Lexeme], names: &Names<'_>) -> bool {
         && !(is_question || may_be_order || is_condition || may_go_on)
         && asks_nothing(rest, names)
         && (is_relative || has_finite(rest))
+}
+
+/// "To liven up the quay a little": what for, by a verb that orders nothing.
+fn is_purpose(clause: &[Lexeme], names: &Names<'_>) -> bool {
+    #[rustfmt::skip]
+    const DEEDS: &[&str] = &["liven", "brighten", "cheer", "improve", "calm", "slow", "celebrate", "mark", "honour", "spruce", "freshen", "entertain", "scare", "deter", "invite", "greet", "serve", "feed", "shade", "shield", "beautify", "break", "soften", "hide", "discourage", "help", "guide"];
+    let Some(to) = longest_phrase(clause, &["to", "in order to", "so as to", "just to"]) else {
+        return false;
+    };
+    let deed = &clause[to..];
+    let is_deed = DEEDS.contains(&word(deed, 0)) || is_base(word(deed, 0)) && longest(deed, &VERBS).is_none();
+    is_deed && asks_nothing(deed, names)
 }
 
 fn is_saying(clause: &[Lexeme]) -> bool {
@@ -347,6 +385,11 @@ fn names_thing(clause: &[Lexeme], names: &Names<'_>) -> bool {
 /// Whether nothing in a clause asks, orders, forbids or corrects, or says of what colour something is to be.
 fn asks_nothing(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let begins_with_it = ["it", "they", "this", "that"].contains(&word(clause, 0));
+    // "The mechanic must reach it" is so, and "the bench must reach the wall" is asked for.
+    let must = clause.iter().position(|lexeme| word_of(lexeme) == "must");
+    if must.is_some_and(|must| names_thing(&clause[..must], names)) {
+        return false;
+    }
     let is_coloured = begins_with_it && (0..clause.len()).any(|at| longest(&clause[at..], PAINTS).is_some());
     let is_placed = begins_with_it
         && names_thing(clause, names)
@@ -389,7 +432,7 @@ fn has_finite(clause: &[Lexeme]) -> bool {
                 return false;
             }
             let of_several = subject.ends_with('s') || SUBJECTS.contains(&subject);
-            is_auxiliary(said) || is_told_of_one(said) || of_several && is_base(said)
+            is_auxiliary(said) || said == "must" || is_told_of_one(said) || of_several && is_base(said)
         })
 }
 
