@@ -31,6 +31,10 @@ pub struct TrafficConfig {
     /// Whether drivers pass what stands on their lane over the oncoming one, on streets of one lane each way; without it they wait until
     /// it is gone.
     pub pass_obstacles: bool,
+    /// Junctions between which all lanes are shorter than this are one to drivers, m, in [0, 30]; with 0 each is by itself. The
+    /// default is what a bus needs to stand. Networks that netconvert has made are joined as they should be: give 0 for them. See
+    /// [`RoadNetwork::join_near`](simworld_core::net::RoadNetwork::join_near).
+    pub join_nearer: f64,
     /// Lateral acceleration at which drivers take turns, m/s², in [0.5, 6].
     pub lateral_acceleration: f64,
     /// Weights of going straight, right and left at an intersection, each in [0, 1000], one of them positive.
@@ -58,6 +62,7 @@ impl Default for TrafficConfig {
             conditions: DrivingConditions::default(),
             no_way: NoWay::default(),
             pass_obstacles: true,
+            join_nearer: 13.0,
             lateral_acceleration: 2.5,
             turns: [0.6, 0.2, 0.2],
             walking: AnticipationVelocity::default(),
@@ -208,6 +213,7 @@ impl TrafficConfig {
             ("mobil.politeness", self.mobil.politeness, 0.0, 2.0, "0 to 2"),
             ("mobil.threshold", self.mobil.threshold, 0.0, 5.0, "0 to 5 m/s²"),
             ("mobil.safe_braking", self.mobil.safe_braking, 0.5, 8.0, "0.5 to 8 m/s²"),
+            ("join_nearer", self.join_nearer, 0.0, 30.0, "0 to 30 m"),
             ("lateral_acceleration", self.lateral_acceleration, 0.5, 6.0, "0.5 to 6 m/s²"),
             ("turns[0]", straight, 0.0, 1000.0, "0 to 1000"),
             ("turns[1]", right, 0.0, 1000.0, "0 to 1000"),

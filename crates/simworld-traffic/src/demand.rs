@@ -243,11 +243,12 @@ pub(crate) struct DemandManager {
 impl DemandManager {
     pub(crate) fn add_flow(
         &mut self,
-        flow: Flow,
+        mut flow: Flow,
         tracks: &Tracks,
         vehicles: &mut VehicleManager,
         streams: Stream,
     ) -> Result<(), TrafficError> {
+        flow.route = flow.route.outside(tracks);
         flow.route.validate(&tracks.network)?;
         flow.validate()?;
         line::validate(&flow.stops, &flow.route, &tracks.network)?;

@@ -125,11 +125,11 @@ impl Traffic {
         config.validate()?;
         network.check()?;
         let streams = seed.stream("traffic");
-        let signals = IntersectionManager::new(&network);
         let (crossings, groups) = (network.crossings.len(), network.signal_groups());
         let ways = WaypointGraph::walkable(&network, &WaypointConfig { step: 25.0, offset: 0.0 })?;
         let mut pedestrians = PedestrianManager::new(&network);
         let tracks = Tracks::new(network, config);
+        let signals = IntersectionManager::new(&tracks.network);
         let mut vehicles = VehicleManager::new(&tracks);
         let placed = Placed {
             vehicles: vehicles.spawn(&tracks, config, streams.named("vehicles")),
@@ -237,6 +237,7 @@ impl Traffic {
         scheduled: f64,
         stops: Vec<Stop>,
     ) -> Result<u64, TrafficError> {
+        let route = route.outside(&self.tracks);
         route.validate(&self.tracks.network)?;
         crate::line::validate(&stops, &route, &self.tracks.network)?;
         let number = self.insert_scheduled(route, vehicle, scheduled)?;
@@ -401,7 +402,9 @@ impl Traffic {
         &self.signals.aspects
     }
 
-    /// The network.
+    /// The network on which one drives: the one that it was made with, or, where junctions are
+    /// [near one another](crate::TrafficConfig::join_nearer), one in which they are joined. Tracks are numbered by this one; only
+    /// connections and signal plans have other numbers than in the one that was given.
     pub fn network(&self) -> &Arc<RoadNetwork> {
         &self.tracks.network
     }

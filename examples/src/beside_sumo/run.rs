@@ -77,7 +77,7 @@ pub(super) fn ours(workload: Workload, files: &Files) -> Result<Rate, BesideErro
     if let Some(warning) = warnings.first() {
         return Err(BesideError::Program { program: "the reader of routes", message: warning.to_string() });
     }
-    let config = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+    let config = TrafficConfig { vehicles: 0, pedestrians: 0, join_nearer: 0.0, ..TrafficConfig::default() };
     let mut traffic = Traffic::new(Arc::new(net.network), &config, Seed(42))?;
     let (warm, measured) = steps(workload);
     for _ in 0..warm {

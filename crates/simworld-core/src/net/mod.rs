@@ -7,6 +7,7 @@ mod gaps;
 mod hammerhead;
 #[cfg(feature = "hierarchy")]
 mod hierarchy;
+mod near;
 mod network;
 mod part;
 mod plan;
@@ -26,6 +27,7 @@ pub use gaps::{CriticalGaps, time_over};
 pub use hammerhead::{HAMMERHEAD_ARM, HAMMERHEAD_WIDTH};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
+pub use near::Joined;
 pub use network::{
     Connection, Control, Crossing, Footpath, Hammerhead, Intersection, Lane, Road, RoadClass, RoadNetwork,
     Side, Sidewalk, Strip, Turn, TurningCircle,

@@ -13,6 +13,7 @@ use simworld_core::id::{LaneId, RoadId};
 use simworld_core::net::{LaneDirection, RoadNetwork};
 
 use crate::TrafficError;
+use crate::vehicle::Tracks;
 
 /// One direction of a road.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -36,10 +37,11 @@ impl Leg {
 
     /// The leg to which a lane belongs.
     pub fn of(network: &RoadNetwork, lane: LaneId) -> Self {
-        let lane = &network.lanes[lane.index()];
+        let (id, lane) = (lane, &network.lanes[lane.index()]);
         let road = &network.roads[lane.road.index()];
-        let direction = if road.from == lane.from { LaneDirection::Forward } else { LaneDirection::Backward };
-        Self::new(lane.road, direction)
+        // A road may lead back to where it begins.
+        let is_forward = road.from == lane.from && !(road.from == road.to && road.backward.contains(&id));
+        Self::new(lane.road, if is_forward { LaneDirection::Forward } else { LaneDirection::Backward })
     }
 
     /// Its road.
@@ -93,6 +95,25 @@ impl Route {
         }
         Ok(())
     }
+
+    /// The same without the legs inside of joined junctions. Where no way across leads from one leg to the next, since one would
+    /// have to cross one of them twice, it takes the quickest way round.
+    pub(crate) fn outside(mut self, tracks: &Tracks) -> Self {
+        let count = self.0.len();
+        self.0.retain(|leg| !tracks.is_inside(*leg));
+        if self.0.len() == count {
+            return self;
+        }
+        let mut legs: Vec<Leg> = Vec::with_capacity(count);
+        for leg in self.0 {
+            let before = legs.last().filter(|before| !leads_to(&tracks.network, **before, leg));
+            if let Some(round) = before.and_then(|before| tracks.router.quickest(*before, leg)) {
+                legs.extend(&round.0[1..round.0.len() - 1]);
+            }
+            legs.push(leg);
+        }
+        Self(legs)
+    }
 }
 
 fn leads_to(network: &RoadNetwork, from: Leg, to: Leg) -> bool {
@@ -137,6 +158,16 @@ impl Router {
 
     /// The quickest route on legs that are open, the first apart, on which one is already; `None` if there is none.
     pub fn quickest_open(&self, from: Leg, to: Leg, is_open: impl Fn(Leg) -> bool) -> Option<Route> {
+        self.quickest_between(from, to, |_, leg| is_open(leg))
+    }
+
+    /// The same where it depends on the leg before whether one can go on to a leg.
+    pub(crate) fn quickest_between(
+        &self,
+        from: Leg,
+        to: Leg,
+        is_open: impl Fn(Leg, Leg) -> bool,
+    ) -> Option<Route> {
         let count = self.graph.node_count() as u32;
         if from.0 >= count || to.0 >= count {
             return None;
@@ -146,7 +177,10 @@ impl Router {
             &self.graph,
             NodeIndex::new(from.0 as usize),
             |node| node == target,
-            |edge| if is_open(Leg(edge.target().index() as u32)) { *edge.weight() } else { f64::INFINITY },
+            |edge| {
+                let ends = [edge.source(), edge.target()].map(|node| Leg(node.index() as u32));
+                if is_open(ends[0], ends[1]) { *edge.weight() } else { f64::INFINITY }
+            },
             |_| 0.0,
         )?;
         if found.0.is_infinite() {

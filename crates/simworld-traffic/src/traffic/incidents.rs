@@ -20,7 +20,7 @@ impl Traffic {
         }
         let length = |lane: LaneId| self.tracks.network.lanes.get(lane.index()).map(|lane| lane.length);
         match closure.what {
-            Closed::Leg(leg) if leg.lanes(&self.tracks.network).is_empty() => {
+            Closed::Leg(leg) if leg.lanes(&self.tracks.drawn).is_empty() => {
                 return refused("the road has no lanes that way");
             }
             Closed::Lane(lane) if length(lane).is_none() => return refused("there is no such lane"),

@@ -21,6 +21,7 @@ impl Traffic {
         scheduled: f64,
         kerbs: Kerbs,
     ) -> Result<u64, TrafficError> {
+        let route = route.outside(&self.tracks);
         route.validate(&self.tracks.network)?;
         vehicle.validate(&self.driving)?;
         if !scheduled.is_finite() {

@@ -20,6 +20,8 @@ pub(crate) struct Closures {
     next: u32,
     /// Lane by lane while anything is closed, and empty while nothing is.
     closed: Vec<bool>,
+    /// Legs from one of which none of the ways that lead over a closed street inside of joined junctions leads on to the other.
+    parted: Vec<(Leg, Leg)>,
     /// Blocked stretches: lane, from and to, m.
     pub(super) blocks: Vec<(Track, f64, f64)>,
     /// When it was last seen to what is closed, s; less than nothing if that has changed.
@@ -56,6 +58,13 @@ impl Closures {
         self.closed.is_empty()
     }
 
+    /// Whether a way leads to a closed lane, or over one inside of joined junctions.
+    #[inline]
+    pub(super) fn bars(&self, tracks: &Tracks, way: usize) -> bool {
+        !self.is_empty()
+            && (self.has(tracks.lane_after(way)) || tracks.through[way].iter().any(|lane| self.has(lane.0)))
+    }
+
     /// Whether every lane of a leg is closed.
     pub(super) fn has_leg(&self, tracks: &Tracks, leg: Leg) -> bool {
         !self.is_empty() && leg.lanes(&tracks.network).iter().all(|lane| self.has(lane.0))
@@ -81,8 +90,8 @@ impl Closures {
                 }
                 Closed::Lane(lane) => vec![lane],
                 Closed::Leg(leg) => {
-                    let road = &tracks.network.roads[leg.road().index()];
-                    let on_leg = |lane: &LaneId| Leg::of(&tracks.network, *lane) == leg;
+                    let road = &tracks.drawn.roads[leg.road().index()];
+                    let on_leg = |lane: &LaneId| Leg::of(&tracks.drawn, *lane) == leg;
                     road.lanes().filter(on_leg).collect()
                 }
             };
@@ -91,6 +100,27 @@ impl Closures {
                 self.closed[lane.index()] = true;
             }
         }
+        self.parted = self.part(tracks);
+    }
+
+    /// The legs that what is closed inside of joined junctions parts, ascending.
+    fn part(&self, tracks: &Tracks) -> Vec<(Leg, Leg)> {
+        let network = &tracks.network;
+        let ends = |way: usize| {
+            let way = &network.connections[way];
+            (Leg::of(network, way.from), Leg::of(network, way.to))
+        };
+        let ways =
+            (0..tracks.ways.len()).filter(|way| !tracks.through[*way].is_empty() && self.bars(tracks, *way));
+        let mut parted: Vec<(Leg, Leg)> = ways.map(ends).collect();
+        parted.sort_unstable();
+        parted.dedup();
+        parted.retain(|(from, to)| {
+            let lanes = from.lanes(network).iter().map(|lane| &network.lanes[lane.index()]);
+            let mut ways = lanes.flat_map(|lane| &lane.outgoing).map(|way| way.index());
+            ways.all(|way| ends(way).1 != *to || self.bars(tracks, way))
+        });
+        parted
     }
 
     pub(crate) fn fits(&self, tracks: &Tracks) -> bool {
@@ -98,7 +128,7 @@ impl Closures {
         (self.closed.is_empty() || self.closed.len() == tracks.lanes)
             && self.blocks.iter().all(|(lane, ..)| is_lane(*lane))
             && self.list.iter().all(|(_, closure)| match closure.what {
-                Closed::Leg(leg) => !leg.lanes(&tracks.network).is_empty(),
+                Closed::Leg(leg) => !leg.lanes(&tracks.drawn).is_empty(),
                 Closed::Lane(lane) | Closed::Stretch(lane, ..) => is_lane(lane.0),
             })
     }
@@ -107,7 +137,9 @@ impl Closures {
 impl Closures {
     /// The quickest route around what is closed.
     pub(super) fn quickest(&self, tracks: &Tracks, from: Leg, to: Leg) -> Option<Route> {
-        tracks.router.quickest_open(from, to, |leg| !self.has_leg(tracks, leg))
+        tracks.router.quickest_between(from, to, |before, leg| {
+            !self.has_leg(tracks, leg) && self.parted.binary_search(&(before, leg)).is_err()
+        })
     }
 }
 
@@ -141,7 +173,7 @@ impl VehicleManager {
         let (vehicle, mut path) = (self.queue(tracks, track)[rank], self.paths(tracks, track)[rank]);
         let way = vehicle.next;
         let has_route = self.routes.get(path.route as usize).is_some();
-        let is_shut = way < EXIT && self.closures.has(tracks.lane_after(way as usize));
+        let is_shut = way < EXIT && self.closures.bars(tracks, way as usize);
         if is_committed(tracks, track, &vehicle) || way == EXIT || !(has_route || way == NONE || is_shut) {
             return;
         }

@@ -1,18 +1,19 @@
 //! Locks: rings of lanes whose first vehicles wait for those of the next; and how they are undone.
 //!
 //! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane; so it does if one
-//! who stands there has his rear across its way, or the permit of a [cluster](super::clusters) that it needs, and if one who
-//! changes lanes stands before it in both. Every lane waits for one at most, so that rings are found by following. A ring is
+//! who stands there has his rear across its way, or the permit of a [cluster](super::clusters) that it needs, if one who
+//! changes lanes stands before it in both, if it has leave to follow those who stand on that lane, and if the room there is kept for
+//! another. Every lane waits for one at most, so that rings are found by following. A ring is
 //! undone by those of its first vehicles that have another way with room, which they take; if none has, all of them may enter
 //! their junctions at once without room behind and without a permit: as all go, each makes the room of the one behind it.
 //! Nobody jumps, and all other rules of crossing hold.
 
 use super::clock::Moment;
-use super::junction::is_room;
+use super::junction::{PATIENT, is_room};
 use super::lane_change::{old_lane, stretch};
 use super::manager::{EXIT, NONE, Path, STANDING, Vehicle, VehicleManager};
 use super::part::Tail;
-use super::tracks::{Track, Tracks};
+use super::tracks::{Track, Tracks, Way};
 use crate::{Counters, Leg, TrafficConfig};
 
 /// Who has stood for so long may be in a lock, s. Whatever the signals show: where each of a ring waits for room behind a lane
@@ -99,6 +100,12 @@ impl VehicleManager {
         lane: Track,
         first: &Vehicle,
     ) -> Option<Track> {
+        if let Some(after) = follows_onto(tracks, first) {
+            return Some(after);
+        }
+        if let Some(old) = self.has_half_changed(tracks, lane, first) {
+            return Some(old);
+        }
         if !has_long_waited(first) {
             return None;
         }
@@ -106,6 +113,15 @@ impl VehicleManager {
         let rear = || self.rear_in_the_way(tracks, first);
         let permit = || self.holder_of_permit(tracks, first);
         self.waits_for(tracks, config, first).or_else(half_changed).or_else(rear).or_else(permit)
+    }
+
+    /// The lane that the first of another has not quite left, if it has long stood there behind somebody who stands in that.
+    fn has_half_changed(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
+        let stands = first.shift != 0.0 && !first.halt.is_finite() && first.stood > LOCKED;
+        let old = old_lane(tracks, lane, first).filter(|_| stands)?;
+        let front = first.s * stretch(tracks, lane, old);
+        let is_behind = self.queue(tracks, old).iter().any(|ahead| ahead.s > front && ahead.v < STANDING);
+        is_behind.then_some(old)
     }
 
     /// The lane beside on which somebody stands who has not quite left this one, before its first.
@@ -129,11 +145,8 @@ impl VehicleManager {
         let mut meeting = conflicts.chain(tracks.tight[way].iter().copied());
         let stands_on = |way: &u32| {
             let lane = tracks.lane_after(*way as usize);
-            let last = self.queue(tracks, lane).last().zip(self.paths(tracks, lane).last());
-            last.is_some_and(|(last, path)| {
-                let is_behind = path.before as usize == tracks.lanes + *way as usize;
-                last.v < STANDING && last.s < last.length() && is_behind
-            })
+            let last = self.queue(tracks, lane).last();
+            last.is_some_and(|last| last.v < STANDING && last.holding == *way && !has_leave(last))
         };
         meeting.find(stands_on).map(|way| tracks.lane_after(way as usize))
     }
@@ -163,8 +176,45 @@ impl VehicleManager {
         }
         let after = tracks.lane_after(first.next as usize);
         let stands = self.queue(tracks, after).last().is_some_and(|last| last.v < STANDING);
-        let is_stuck = stands && !self.has_room(tracks, config, first.next, first);
-        is_stuck.then_some(after)
+        if stands && (!self.has_room(tracks, config, first.next, first) || self.is_kept(tracks, first, after))
+        {
+            return Some(after);
+        }
+        self.who_has_left(tracks, config, first, after)
+    }
+
+    /// Whether the room on a lane is kept for another, who has stood longer for it.
+    fn is_kept(&self, tracks: &Tracks, first: &Vehicle, after: Track) -> bool {
+        let place = tracks.network.connections[first.next as usize].intersection;
+        let mut ways = tracks.network.intersections[place.index()].connections.iter();
+        ways.any(|way| {
+            let Way { from, to, .. } = tracks.ways[way.index()];
+            to == after
+                && self.queue(tracks, from).first().is_some_and(|other| {
+                    let waits = other.next == way.0 && !has_leave(other);
+                    waits && other.id != first.id && other.stood > first.stood.max(PATIENT)
+                })
+        })
+    }
+
+    /// The lane on which somebody stands who has not quite left the one behind the junction, and takes the room there.
+    fn who_has_left(
+        &self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        first: &Vehicle,
+        after: Track,
+    ) -> Option<Track> {
+        let takes_room = |beside: Track, other: &Vehicle| {
+            let ahead = stretch(tracks, beside, after);
+            let tail = Tail { rear: other.s * ahead - other.length(), ..Tail::of(other) };
+            other.shift != 0.0
+                && other.v < STANDING
+                && old_lane(tracks, beside, other) == Some(after)
+                && !is_room(tracks, config, (&self.junctions, &self.storage), (after, &tail), first)
+        };
+        let mut beside = tracks.beside[after as usize].into_iter().filter(|beside| *beside != NONE);
+        beside.find(|beside| self.queue(tracks, *beside).iter().any(|other| takes_room(*beside, other)))
     }
 
     /// Whether there is room for a vehicle behind a way.
@@ -196,8 +246,11 @@ impl VehicleManager {
             return;
         }
         loop {
-            let first = self.queue(tracks, lane).first().map_or(NONE, |first| first.id);
-            if let Err(place) = self.passes.binary_search(&first) {
+            // Who has leave, or comes to the end of its way, needs none.
+            let first = self.queue(tracks, lane).first().filter(|first| has_long_waited(first));
+            if let Some(first) = first.map(|first| first.id)
+                && let Err(place) = self.passes.binary_search(&first)
+            {
                 self.passes.insert(place, first);
                 counters.passes += 1;
             }
@@ -210,7 +263,9 @@ impl VehicleManager {
 
     /// Lets the first of a lane take another way that has room, if there is one; its route leads to the same end.
     fn turn_elsewhere(&mut self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> bool {
-        let Some(first) = self.queue(tracks, lane).first().copied() else { return false };
+        let Some(first) = self.queue(tracks, lane).first().copied().filter(has_long_waited) else {
+            return false;
+        };
         let kind = config.vehicle_type(first.row).kind;
         let weight = |way: u32| tracks.weight(way as usize, &config.turns) > 0.0;
         let ways = tracks.network.lanes[lane as usize].outgoing.iter().map(|way| way.0);
@@ -218,8 +273,10 @@ impl VehicleManager {
             let other = Vehicle { next: *way, ..first };
             let after = tracks.lane_after(*way as usize);
             tracks.may_use(after, kind)
-                && !self.closures.has(after)
+                && !self.closures.bars(tracks, *way as usize)
                 && self.has_room(tracks, config, *way, &other)
+                // Else he would be sent hither and thither.
+                && self.waits_behind(tracks, config, lane, &other).is_none()
                 && self.leads_home(tracks, lane, *way)
         });
         let Some(way) = open else { return false };
@@ -231,6 +288,17 @@ impl VehicleManager {
         let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
         self.goal(tracks, lane, 0).is_none_or(|goal| self.closures.quickest(tracks, after, goal).is_some())
     }
+}
+
+/// The lane on to which the first of another has leave to follow others, as on a bend, and has long stood behind them.
+fn follows_onto(tracks: &Tracks, first: &Vehicle) -> Option<Track> {
+    let stands = has_leave(first) && !first.halt.is_finite() && first.stood > LOCKED;
+    stands.then(|| tracks.lane_after(first.next as usize))
+}
+
+/// Whether the first of a lane has leave for the way that it wants.
+fn has_leave(first: &Vehicle) -> bool {
+    first.next < EXIT && first.holding == first.next
 }
 
 /// Whether the first of a lane has long stood without leave for the way that it wants.

@@ -201,12 +201,12 @@ impl Scene<'_> {
         path.decisions += 1;
         let mut rng = self.streams.indexed(u64::from(vehicle.id)).indexed(u64::from(path.decisions)).rng();
         let ways = self.tracks.weighted_ways(lane, (kind, vehicle.length()), &self.config.turns, weights);
-        let after = |way: usize| self.tracks.lane_after(ways[way].index());
+        let is_shut = |way: usize| self.closures.bars(self.tracks, ways[way].index());
         for (way, weight) in weights.iter_mut().enumerate().filter(|_| !self.closures.is_empty()) {
-            *weight *= f64::from(u8::from(!self.closures.has(after(way))));
+            *weight *= f64::from(u8::from(!is_shut(way)));
         }
         // If every way has weight zero, the first that is open is as good as any.
-        let open = || (0..ways.len()).find(|way| !self.closures.has(after(*way)));
+        let open = || (0..ways.len()).find(|way| !is_shut(*way));
         rng.weighted(weights).or_else(open).map_or(NONE, |way| ways[way].0)
     }
 }

@@ -31,7 +31,7 @@ impl VehicleManager {
 
     /// Lets a vehicle of a lane take a way from it, and its route anew from there; false if its end cannot be reached so.
     pub(super) fn take_way(&mut self, tracks: &Tracks, lane: Track, rank: usize, way: u32) -> bool {
-        if self.closures.has(tracks.lane_after(way as usize)) {
+        if self.closures.bars(tracks, way as usize) {
             return false;
         }
         let mut route = None;

@@ -151,7 +151,11 @@ impl VehicleManager {
         through: &[Leg],
     ) -> Result<(), ControlError> {
         let mut legs = standing.legs.clone();
-        for leg in through {
+        let driven = through.iter().filter(|leg| !tracks.is_inside(**leg));
+        if driven.clone().next().is_none() {
+            return Err(ControlError::NoWay { id, reason: "all of the roads are inside of junctions" });
+        }
+        for leg in driven {
             let from = *legs.last().unwrap_or(leg);
             if leg.lanes(&tracks.network).is_empty() {
                 return Err(ControlError::NoWay { id, reason: "one of the roads has no lanes that way" });

@@ -76,7 +76,11 @@ pub(crate) struct Way {
 /// The network as drivers see it.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracks {
+    /// The network with near junctions joined, on which one drives, and as it was given.
     pub(crate) network: Arc<RoadNetwork>,
+    pub(crate) drawn: Arc<RoadNetwork>,
+    /// By connection: the lanes inside of joined junctions over which it leads.
+    pub(crate) through: Ragged<LaneId>,
     pub(crate) lanes: usize,
     /// Length of each track, m.
     pub(crate) length: Vec<f64>,
@@ -117,13 +121,19 @@ pub(crate) struct Tracks {
 
 impl Tracks {
     pub(crate) fn new(network: Arc<RoadNetwork>, config: &TrafficConfig) -> Self {
+        let (drawn, joined) = (Arc::clone(&network), network.join_near(config.join_nearer));
+        let (network, through) = match joined {
+            Some(joined) => (Arc::new(joined.network), joined.through.into_iter().collect()),
+            None => (network, drawn.connections.iter().map(|_| Vec::new()).collect::<Ragged<LaneId>>()),
+        };
         let lane_lengths = network.lanes.iter().map(|lane| lane.length);
         let way_lengths = network.connections.iter().map(|connection| connection.length);
         let length = lane_lengths.chain(way_lengths).collect();
         let lane_speeds = network.lanes.iter().map(|lane| lane.speed_limit);
-        let way_speeds = network.connections.iter().map(|connection| {
+        let way_speeds = network.connections.iter().enumerate().map(|(index, connection)| {
             let limit = network.lanes[connection.to.index()].speed_limit;
-            limit.min(curve_speed(connection, config.lateral_acceleration))
+            let tightest = if through[index].is_empty() { curve_speed } else { bends_speed };
+            limit.min(tightest(connection, config.lateral_acceleration))
         });
         let speed = lane_speeds.chain(way_speeds).collect();
         let connections = 0..network.connections.len();
@@ -149,7 +159,9 @@ impl Tracks {
             router: Router::new(&network),
             clusters: Clusters::new(&network, config),
             layout: Layout::new(&network),
+            through,
             network,
+            drawn,
         }
     }
 
@@ -167,6 +179,11 @@ impl Tracks {
     #[inline]
     pub(crate) fn lane_after(&self, connection: usize) -> Track {
         self.ways[connection].to
+    }
+
+    /// Whether a leg is inside of joined junctions: nobody is ever on its lanes.
+    pub(crate) fn is_inside(&self, leg: Leg) -> bool {
+        leg.lanes(&self.network).is_empty() && !leg.lanes(&self.drawn).is_empty()
     }
 
     /// Whether a lane is in a roundabout.
@@ -190,8 +207,7 @@ impl Tracks {
         after: Option<Leg>,
         kind: VehicleKind,
     ) -> Option<u32> {
-        let leads_there =
-            |exit: &&(u32, Leg)| exit.1 == leg && !closures.has(self.lane_after(exit.0 as usize));
+        let leads_there = |exit: &&(u32, Leg)| exit.1 == leg && !closures.bars(self, exit.0 as usize);
         let ways = self.exits[lane as usize].iter().filter(leads_there).map(|exit| exit.0);
         let first = ways.clone().next()?;
         let open = ways.filter(|way| self.may_use(self.ways[*way as usize].to, kind));
@@ -292,6 +308,17 @@ fn curve_speed(way: &Connection, lateral: f64) -> f64 {
         return f64::INFINITY;
     }
     (lateral * length / turned).sqrt().max(2.5)
+}
+
+/// The speed at which the tightest bend of a way across joined junctions is taken, m/s: it turns in a part of it alone.
+fn bends_speed(way: &Connection, lateral: f64) -> f64 {
+    /// As long as a turn of a car, m.
+    const BEND: f64 = 10.0;
+    let heading = |station: f64| polyline::at(&way.path, station.min(way.length)).1;
+    let pieces = way.length.ceil() as usize;
+    let turned = |piece: usize| wrap_angle(heading(piece as f64 + BEND) - heading(piece as f64)).abs();
+    let most = (0..pieces).map(turned).fold(0.0, f64::max);
+    if most < 0.15 { f64::INFINITY } else { (lateral * BEND.min(way.length) / most).sqrt().max(2.5) }
 }
 
 /// The ways that part from this one, and where.

@@ -18,6 +18,7 @@ mod far_from_interest;
 mod houses_on_lanes;
 mod kerb_to_kerb;
 mod locks_are_undone;
+mod near_junctions_are_one;
 mod near_junctions_are_passed;
 mod nobody_leaves_the_map;
 mod obstacles_are_passed;

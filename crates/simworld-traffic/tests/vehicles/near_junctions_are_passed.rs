@@ -36,8 +36,9 @@ fn nobody_stands_for_good_between_junctions_near_one_another() {
     let short = network.lanes.iter().filter(|lane| lane.length < 6.0).count();
     assert!(short > 6, "lanes shorter than a car and its gap: {short}");
     let network = Arc::new(network);
-    for seed in 0..3 {
-        let config = TrafficConfig { vehicles: 26, pedestrians: 10, ..TrafficConfig::default() };
+    // Joined, and each by itself with a permit for all.
+    for (seed, join_nearer) in (0..3).flat_map(|seed| [(seed, 13.0), (seed, 0.0)]) {
+        let config = TrafficConfig { vehicles: 26, pedestrians: 10, join_nearer, ..TrafficConfig::default() };
         let mut traffic =
             Traffic::new(Arc::clone(&network), &config, Seed(seed)).expect("the settings are in range");
         traffic.set_policy(Box::new(Actuated::default()));
@@ -46,12 +47,21 @@ fn nobody_stands_for_good_between_junctions_near_one_another() {
             for step in 0..9000 {
                 traffic.step(0.1);
                 if step % 5 == 0 {
-                    assert_eq!(touching(&traffic), [], "at {} s with seed {seed}", traffic.seconds());
+                    assert_eq!(
+                        touching(&traffic),
+                        [],
+                        "at {} s with seed {seed}, joined below {join_nearer} m",
+                        traffic.seconds()
+                    );
                 }
             }
             let crossings = traffic.counters().crossings;
             // Each crosses a junction every two minutes at least.
-            assert!(crossings - last > 26 * 7, "quarter {quarter} of seed {seed}: {:?}", traffic.counters());
+            assert!(
+                crossings - last > 26 * 7,
+                "quarter {quarter} of seed {seed}, joined below {join_nearer} m: {:?}",
+                traffic.counters()
+            );
             last = crossings;
         }
     }

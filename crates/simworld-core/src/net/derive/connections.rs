@@ -442,7 +442,8 @@ fn right_of_way(network: &RoadNetwork, connection: &Connection, id: ConnectionId
         // Who is in a roundabout, or between two junctions where nobody can wait, goes first.
         _ if road.roundabout => 0,
         _ if controlled && connection.signal.is_none() && lane.length < INNER => 0,
-        _ if controlled => 1,
+        // Beside junctions with lights, joined to them, who has none gives way to those who have.
+        _ if controlled => 1 + u8::from(connection.signal.is_none()),
         RoadClass::Highway => 1,
         RoadClass::Arterial => 2,
         RoadClass::Local => 3,
