@@ -260,8 +260,12 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Whether a new thing is of that asset, and so many times as large; `any KIND` leaves the asset open.
+    /// Whether a new thing is of that asset, and so many times as large; `any KIND` leaves the asset open, and of `x|y` any one will do.
     fn is_made(&self, thing: EntityId, name: &str, scale: f64) -> bool {
+        name.split('|').any(|name| self.is_one(thing, name, scale))
+    }
+
+    fn is_one(&self, thing: EntityId, name: &str, scale: f64) -> bool {
         let entity = self.after.entity(thing).expect("it was added");
         if let Some(kind) = name.strip_prefix("any ") {
             return entity.kind.as_str() == kind;
