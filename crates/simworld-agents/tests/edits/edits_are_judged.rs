@@ -110,7 +110,7 @@ fn what_was_taught_is_understood() {
     let all = judged.len();
     let wrong = judged.iter().filter(|(.., verdict)| *verdict != Verdict::Right);
     let faults: Vec<String> = wrong.map(|(city, asked, verdict)| line(city, asked, verdict)).collect();
-    assert!(all >= 1_800, "only {all} sentences");
+    assert!(all >= 2_400, "only {all} sentences");
     assert!(faults.is_empty(), "{} of {all}\n{}", faults.len(), faults.join("\n"));
 }
 

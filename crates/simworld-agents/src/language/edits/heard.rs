@@ -3,6 +3,7 @@
 use simworld_core::scene::Scene;
 
 use super::super::lexer::{Lexeme, is_mark};
+use super::super::lexicon::longest;
 use super::super::names::Names;
 use super::super::parser::shortened;
 use super::super::streets::StreetNames;
@@ -12,9 +13,10 @@ use super::memo::Memo;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Wish;
+use super::words::{WAYS, Way};
 use super::{
-    Focus, Reading, anew, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing, gone_by_name,
-    gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others,
+    Focus, Reading, anew, beforehand, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing,
+    gone_by_name, gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others,
     paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt,
     retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole,
     withdrawn, wording,
@@ -32,8 +34,9 @@ pub(crate) fn read(
         let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
         return Err(EditError::NotUnderstood { words: shortened(words), fragment: String::new(), hint });
     }
-    let ear = Ear { words, scene, stock, focus };
     let mut heard = hearing::hear(words, None);
+    let begins_with_place = longest(&heard, &WAYS).is_some_and(|(way, _)| matches!(way, Way::To(_)));
+    let ear = Ear { words, scene, stock, focus, begins_with_place };
     shades::in_plain_words(words, &mut heard);
     let read = ear.read(heard.clone());
     // What is said in one go has nothing that could be left out.
@@ -60,12 +63,14 @@ struct Ear<'a> {
     scene: &'a dyn Scene,
     stock: &'a Stock,
     focus: &'a Focus,
+    /// Whether the sentence begins with a place, so that what is made stands nowhere else.
+    begins_with_place: bool,
 }
 
 impl Ear<'_> {
     /// The wishes of what was heard, or of some of it.
     fn read(&self, mut lexemes: Vec<Lexeme>) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus } = *self;
+        let Self { words, scene, stock, focus, .. } = *self;
         let view = view_of(scene, focus);
         let names = Names::new(scene, focus.from, RANGE);
         put_plainly(words, &mut lexemes, &names, (stock, &focus.streets));
@@ -113,7 +118,9 @@ impl Ear<'_> {
     /// Whether a sentence is understood, somebody has what it asks for, and what it is about first is there; or whether what is wrong with it
     /// is something else.
     fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
+        let stands_nowhere = |reading: &Reading| reading.wishes.iter().flatten().any(is_nowhere);
         match read {
+            Ok(reading) if self.begins_with_place && stands_nowhere(reading) => false,
             // What was found to be granted while it was read is not worked out anew.
             Ok(reading) => {
                 reading.held.is_some() || reading.lacking(self.stock).is_empty() && !self.is_missing(reading)
@@ -136,7 +143,7 @@ impl Ear<'_> {
         mut heard: Vec<Lexeme>,
         read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus } = *self;
+        let Self { words, scene, stock, focus, .. } = *self;
         let names = Names::new(scene, focus.from, RANGE).with_made(&heard, &stock.catalogue);
         slips::correct(words, &mut heard, &names, stock, &focus.streets);
         let (view, memo) = (view_of(scene, focus), Memo::default());
@@ -171,14 +178,14 @@ impl Ear<'_> {
         heard: &[Lexeme],
         read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus } = *self;
+        let Self { words, scene, stock, focus, .. } = *self;
         let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
         self.first_granted(lastly::ways(words, heard, &names, stock, focus), read)
     }
 
     /// As [`Self::in_other_words`], by questions in other words and by scenes that are set.
     fn told_anew(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus } = *self;
+        let Self { words, scene, stock, focus, .. } = *self;
         let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
         self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
     }
@@ -201,7 +208,7 @@ impl Ear<'_> {
 
     /// As [`Self::in_other_words`], by where things stand that are told round about.
     fn placed(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus } = *self;
+        let Self { words, scene, stock, focus, .. } = *self;
         let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
         let mut spelt = heard.to_vec();
         slips::correct(words, &mut spelt, &names, stock, &focus.streets);
@@ -221,7 +228,8 @@ impl Ear<'_> {
             matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. })
         };
         let mut asked = None;
-        for way in statements::without(heard, &names) {
+        let left = statements::with_what_was_left(heard);
+        for way in left.into_iter().chain(statements::without(heard, &names)) {
             if asked.is_none() {
                 asked = Some(self.read(way.clone())).filter(|read| !read.as_ref().is_err_and(is_open));
             }
@@ -282,7 +290,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
-    statements::leave_out_early(words, lexemes, names);
+    beforehand::leave_out(words, lexemes, names);
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);
     meant::in_plain_words(lexemes);

@@ -14,7 +14,18 @@ use super::words::{WAYS, Way};
 #[rustfmt::skip]
 const LEADS: &Phrases = &Phrases::of(&["so that", "such that", "in such a way that", "so there is", "so there are", "so that there is", "so that there are", "so that there remain", "so that there remains", "so as to leave", "so as to keep", "so that you leave", "so that it leaves", "so you leave", "leaving", "and leave", "but leave", "and keep", "but keep", "keeping", "with"]);
 /// Before a length, that it is just that; "at least" is another thing.
-const JUST: &Phrases = &Phrases::of(&["exactly", "precisely", "just", "about", "some", "a full", "a good"]);
+const JUST: &Phrases = &Phrases::of(&[
+    "a gap of",
+    "a distance of",
+    "a space of",
+    "exactly",
+    "precisely",
+    "just",
+    "about",
+    "some",
+    "a full",
+    "a good",
+]);
 /// That it is left, and of what.
 #[rustfmt::skip]
 const FREE: &Phrases = &Phrases::of(&["of free space", "of free room", "of space", "of room", "of clearance", "of distance", "of air", "of open space", "of clear space", "space", "room", "clearance", "distance", "free", "clear", "empty", "open", "left", "spare", "stay", "stays", "remain", "remains", "is", "are", "is left", "are left", "will stay", "will remain", "be", "stand"]);

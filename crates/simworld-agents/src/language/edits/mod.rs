@@ -13,6 +13,7 @@ mod ask;
 mod asked;
 mod attempts;
 mod bare;
+mod beforehand;
 mod bounds;
 mod breaks;
 mod busy;

@@ -7,6 +7,7 @@ use super::super::lexer::{Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::parse::Reader;
+use super::statements;
 use super::wish::Wish;
 
 /// Between a thing and the name that it has from then on.
@@ -141,8 +142,9 @@ impl Reader<'_> {
 
     /// Whether a mark stands here and behind it what somebody says of a thing.
     fn begins_remark(&self, at: usize, end: usize) -> bool {
-        is_mark(&self.lexemes[at])
-            && longest_phrase(
+        let is_told = || statements::tells(&self.lexemes[at + 1..end], self.names);
+        let is_begun = || {
+            longest_phrase(
                 &self.lexemes[at + 1..end],
                 &[
                     "he",
@@ -169,6 +171,8 @@ impl Reader<'_> {
                 ],
             )
             .is_some()
+        };
+        is_mark(&self.lexemes[at]) && (is_begun() || is_told())
     }
 
     /// Whether "and" stands here and behind it an order about something; "Stand and Deliver" is a name.

@@ -3,8 +3,7 @@
 //!
 //! The other modules know remarks by what is said in them. Here a clause is known by its shape alone: somebody or something, behind it a finite verb, and
 //! nothing that asks, forbids, limits or corrects. It is tried where a sentence is refused in every other way, and counts only if the rest is granted; so no
-//! order is lost that was understood. Two asides cannot wait for that, since what stands behind them would be lost with them: what stands between two
-//! dashes, and a list of things of which something is told.
+//! order is lost that was understood. What cannot wait for that, [`super::beforehand`] leaves out.
 
 use super::super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::super::lexicon::{category, longest, longest_phrase};
@@ -12,9 +11,9 @@ use super::super::names::Names;
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::finite::{is_auxiliary, is_base, is_told_of_one};
-use super::forms::word;
+use super::forms::{word, word_at};
 use super::remarked::plain_noun;
-use super::words::{ABOUT_IT, VERBS, WAYS};
+use super::words::{VERBS, WAYS};
 
 /// Before a statement, and says nothing of it.
 #[rustfmt::skip]
@@ -39,24 +38,12 @@ const TO_BE: &[&str] = &[
 ];
 /// What somebody has to do himself, so that it asks nobody else.
 #[rustfmt::skip]
-const OWN: &Phrases = &Phrases::of(&["i must", "we must", "i have to", "we have to", "i need to", "we need to", "i should", "we should", "i ought to", "i had to", "we had to", "id better", "he must", "she must", "they must", "he has to", "she has to", "they have to"]);
+const OWN: &Phrases = &Phrases::of(&["i must", "we must", "i have to", "we have to", "i need to", "we need to", "i should", "we should", "i ought to", "i had to", "we had to", "id better", "he must", "she must", "they must", "nobody should", "no one should", "people should", "everybody should", "everyone should", "one should", "nobody must", "nobody shall", "he has to", "she has to", "they have to"]);
 /// What that is, of the verbs of orders.
 const OWN_DEEDS: &[&str] = &[
     "go", "be", "get", "come", "leave", "run", "catch", "see", "show", "tell", "give", "find", "drive",
     "walk", "take",
 ];
-/// What asks to be told something.
-const ASKING: &Phrases = &Phrases::of(&[
-    "how many",
-    "tell me",
-    "tell us",
-    "just tell me",
-    "show me",
-    "list",
-    "count",
-    "which",
-    "what",
-]);
 /// Nobody.
 const NOBODY: &Phrases = &Phrases::of(&[
     "not a soul",
@@ -102,7 +89,7 @@ const ADVERBS: &[&str] = &["never", "always", "often", "just", "really", "still"
 const BEFORE_NOUNS: &[&str] = &["a", "an", "the", "my", "our", "your", "his", "her", "its", "their", "this", "these", "those", "to", "of", "in", "on", "at", "by", "for", "with", "from", "near", "behind", "beside", "and", "or", "some", "any", "no", "two", "three", "four", "five", "six", "more", "every", "each", "new", "old", "big", "small", "tall", "little", "between", "along", "around", "next", "as", "than", "like", "into", "onto", "under", "over", "very", "about"];
 /// Clauses that are sayings, whole.
 #[rustfmt::skip]
-const SAYINGS: &Phrases = &Phrases::of(&["lets face it", "let us face it", "i gather", "show that", "show it", "do that", "do it", "make it so", "do so", "show me that", "that is my design", "out of shot", "out of mind", "out of sight", "third time this year", "first time this year", "second time this year", "third time this week", "if i may add something", "if i may say so", "if i may", "if you ask me", "if you must know", "would you believe it", "can you believe it",
+const SAYINGS: &Phrases = &Phrases::of(&["lets face it", "let us face it", "i gather", "picture this", "imagine this", "heres my idea", "here is my idea", "here goes", "go on", "no ifs or buts", "no ifs and buts", "no ifs no buts", "show that", "show it", "do that", "do it", "make it so", "do so", "show me that", "that is my design", "out of shot", "out of mind", "out of sight", "third time this year", "first time this year", "second time this year", "third time this week", "if i may add something", "if i may say so", "if i may", "if you ask me", "if you must know", "would you believe it", "can you believe it",
     "atchoo", "go figure", "as they say", "so to speak", "so im told", "so i am told", "so i hear", "or so i hear", "or so im told", "or so they say", "or so it seems", "believe it or not", "mind you", "fair enough", "such is life", "thats life", "cest la vie", "what can you do", "what can i say", "what else", "who knows", "god knows", "heaven knows", "no offence", "no hard feelings", "long story",
     "say no more", "enough said", "case in point", "simple as that", "as simple as that", "plain and simple", "end of story", "full stop", "period", "job done", "done and dusted", "for what its worth", "for the record", "between you and me", "between us", "truth be told", "to be honest", "to be fair", "to be frank", "in all honesty", "rules are rules", "business is business", "safety first", "better late than never",
     "first come first served", "every single april", "every single year", "every single day", "every time", "every year", "every day", "every week", "every night", "every morning", "every evening", "year after year", "day after day", "day and night", "come rain or shine", "rain or shine", "time and again", "once again", "yet again", "all gone", "all of them gone", "long gone", "what a mess", "what a pity", "what a shame", "what a day", "what a view", "poor thing", "poor man", "poor woman", "poor devil", "lucky you", "lucky me", "silly me", "my fault", "my mistake", "no wonder", "small wonder", "hence the request", "hence the question"]);
@@ -114,9 +101,9 @@ const SHORTEST: usize = 3;
 
 /// A part between two marks: where its words begin and end.
 #[derive(Clone, Copy)]
-struct Clause {
-    from: usize,
-    end: usize,
+pub(super) struct Clause {
+    pub(super) from: usize,
+    pub(super) end: usize,
 }
 
 /// The sentence without its statements: without all of them, without those at its end, without those at its beginning, and without mere sayings, where that
@@ -137,7 +124,9 @@ pub(super) fn without(lexemes: &[Lexeme], names: &Names<'_>) -> Vec<Vec<Lexeme>>
     let left_out = |is_out: &dyn Fn(usize) -> bool| {
         let out: Vec<Clause> =
             (0..clauses.len()).filter(|at| told[*at] && is_out(*at)).map(|at| clauses[at]).collect();
-        (!out.is_empty()).then(|| rest_of(lexemes, &out)).and_then(|rest| standing_alone(lexemes, rest, &out))
+        (!out.is_empty())
+            .then(|| rest_of(lexemes, &out))
+            .and_then(|rest| standing_alone(lexemes, rest, &out, names))
     };
     let mut ways: Vec<Vec<Lexeme>> = Vec::new();
     let tried: [&dyn Fn(usize) -> bool; 4] =
@@ -151,7 +140,12 @@ pub(super) fn without(lexemes: &[Lexeme], names: &Names<'_>) -> Vec<Vec<Lexeme>>
 }
 
 /// The rest with what its first pronoun stands for in its place, if that was left out with what was told before and is the only certain thing there.
-fn standing_alone(lexemes: &[Lexeme], mut rest: Vec<Lexeme>, out: &[Clause]) -> Option<Vec<Lexeme>> {
+fn standing_alone(
+    lexemes: &[Lexeme],
+    mut rest: Vec<Lexeme>,
+    out: &[Clause],
+    names: &Names<'_>,
+) -> Option<Vec<Lexeme>> {
     if let Some(words) = longest_phrase(&rest, PRELUDES).filter(|words| *words < rest.len()) {
         rest.drain(..words);
     }
@@ -159,109 +153,43 @@ fn standing_alone(lexemes: &[Lexeme], mut rest: Vec<Lexeme>, out: &[Clause]) -> 
         return Some(rest);
     }
     let start = rest.first()?.start;
-    let at = rest.iter().position(|lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme)))?;
+    let is_pronoun = |lexeme: &Lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme));
+    rest.iter().find(|lexeme| is_pronoun(lexeme))?;
     let mut nouns = out.iter().filter(|clause| lexemes[clause.from].start < start).filter_map(|clause| {
         let from = clause.from;
-        plain_noun(&lexemes[from..clause.end]).map(|words| lexemes[from..from + words].to_vec())
+        let said = &lexemes[from..clause.end];
+        let named = || names.exact(said).map(|(_, words)| words);
+        plain_noun(said).or_else(named).map(|words| lexemes[from..from + words].to_vec())
     });
     let noun = nouns.next().filter(|_| nouns.next().is_none())?;
-    rest.splice(at..=at, noun);
-    Some(rest)
+    Some(with_noun(&rest, &noun))
 }
 
-/// Leaves out what stands between two dashes and tells something, and what is told of a list of things before an order: neither can wait.
-pub(super) fn leave_out_early(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
-    without_dashed(words, lexemes, names);
-    without_told_lists(lexemes, names);
-    without_rhetorical(words, lexemes);
-    without_sake(lexemes);
-    without_occasion(lexemes);
+/// The words with a noun in the place of their pronouns.
+pub(super) fn with_noun(rest: &[Lexeme], noun: &[Lexeme]) -> Vec<Lexeme> {
+    let is_pronoun = |lexeme: &Lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme));
+    let said = |lexeme: &Lexeme| if is_pronoun(lexeme) { noun.to_vec() } else { vec![lexeme.clone()] };
+    rest.iter().flat_map(said).collect()
 }
 
-/// "It's lunchtime, so ...": an hour that is told as a reason is none that is wished for.
-fn without_occasion(lexemes: &mut Vec<Lexeme>) {
+/// "Somebody forgot a backpack; it should lie next to the chair": the order to put one there.
+pub(super) fn with_what_was_left(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     #[rustfmt::skip]
-    const OCCASIONS: &Phrases = &Phrases::of(&["its lunchtime", "it is lunchtime", "its lunch time", "its teatime", "its dinner time", "its dinnertime", "its bedtime", "its rush hour", "it is rush hour", "its closing time", "its almost noon", "its nearly noon", "its almost night", "its nearly night", "its getting late", "its getting dark", "it gets dark", "its market day", "it is market day", "its fish market day", "its harvest time", "its recess", "its break time", "its playtime"]);
-    let Some(words) = longest_phrase(lexemes, OCCASIONS) else { return };
-    let is_reason = lexemes.get(words).is_some_and(is_mark) && word(lexemes, words + 1) == "so";
-    if is_reason && lexemes.len() > words + 2 {
-        lexemes.drain(..words + 2);
-    }
-}
-
-/// "For the sake of the photograph move the statue": what for, before an order.
-fn without_sake(lexemes: &mut Vec<Lexeme>) {
-    /// What it is for takes no more words.
-    const LONGEST: usize = 6;
+    const LEFT: &Phrases = &Phrases::of(&["somebody forgot", "someone forgot", "somebody left", "someone left", "somebody lost", "someone lost", "somebody dropped", "someone dropped", "somebody brought", "someone brought", "i brought", "we brought", "i bought", "we bought", "i have", "we have", "we got", "i got", "ive got", "weve got", "somebody donated", "someone donated", "somebody gave us", "someone gave us"]);
     #[rustfmt::skip]
-    const SAKES: &Phrases = &Phrases::of(&["for the sake of the", "for the sake of my", "for the sake of our", "for the sake of a", "for the sake of", "for the benefit of the", "for the benefit of", "in the interest of", "in the interests of", "in honour of the", "in honor of the", "in the name of"]);
-    let Some(sake) = longest_phrase(lexemes, SAKES) else { return };
-    let may_begin = |at: &usize| longest(&lexemes[*at..], &VERBS).is_some();
-    let order = (sake + 1..lexemes.len().min(sake + LONGEST)).find(may_begin);
-    if let Some(order) = order.filter(|order| !lexemes[..*order].iter().any(is_mark)) {
-        lexemes.drain(..order);
-    }
-}
-
-/// "A single chair for a party of thirty, are they joking? Put ...": what is asked of nobody, before an order.
-fn without_rhetorical(words: &str, lexemes: &mut Vec<Lexeme>) {
-    #[rustfmt::skip]
-    const ASKED_OF_NOBODY: &Phrases = &Phrases::of(&["are they", "are you", "is he", "is she", "is this a joke", "is that a joke", "are we", "am i", "who does that", "who did that", "who does he", "who do they", "what were they", "what was he", "what is this", "seriously", "really", "how come", "is that all", "is that it", "whats the point", "what is the point"]);
-    let is_question = |lexeme: &Lexeme| {
-        is_mark(lexeme) && words.get(lexeme.start..lexeme.end).is_some_and(|said| said == "?")
-    };
-    let Some(end) = lexemes.iter().position(is_question) else { return };
-    let from = lexemes[..end].iter().rposition(is_mark).map_or(0, |mark| mark + 1);
-    let rest = lexemes[end + 1..].to_vec();
-    let is_order = longest(&rest, &VERBS).is_some();
-    let is_idle = longest_phrase(&lexemes[from..end], ASKED_OF_NOBODY).is_some() && !asks(&lexemes[..end]);
-    if from > 0 && is_idle && is_order && stands_alone(lexemes, &rest, &[Clause { from: 0, end }]) {
-        *lexemes = rest;
-    }
-}
-
-/// "Put a newspaper — my wife hates it when I read over breakfast — on the table".
-fn without_dashed(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
-    let is_dash = |at: usize| {
-        let between =
-            words.get(lexemes[at - 1].end..lexemes[at].start.max(lexemes[at - 1].end)).unwrap_or_default();
-        let own = words.get(lexemes[at].start..lexemes[at].end).unwrap_or_default();
-        [between, own]
-            .iter()
-            .any(|said| said.contains(['—', '–']) || said.contains(" - ") || said.contains("--"))
-    };
-    let dashes: Vec<usize> = (1..lexemes.len()).filter(|at| is_dash(*at)).collect();
-    let found = dashes.windows(2).find_map(|pair| {
-        let &[first, second] = pair else { return None };
-        let from = first + usize::from(is_mark(&lexemes[first]));
-        let behind = second + usize::from(is_mark(&lexemes[second]));
-        let goes_on = lexemes.get(behind..).is_some_and(|rest| {
-            longest(rest, &WAYS).is_some() || longest(rest, &ABOUT_IT).is_some() || word(rest, 0) == "to"
-        });
-        let aside = lexemes.get(from..second)?;
-        (goes_on && !aside.is_empty() && tells(aside, names)).then_some((first, behind))
-    });
-    if let Some((first, behind)) = found {
-        lexemes.drain(first..behind);
-    }
-}
-
-/// "Hydrants, signs and benches are another department's headache; ...".
-fn without_told_lists(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
-    let Some(end) = lexemes.iter().position(|lexeme| lexeme.token == Token::Break) else { return };
-    let Some(is_left) = lexemes.get(end + 1).map(|lexeme| !is_mark(lexeme)) else { return };
-    let list = &lexemes[..end];
-    let verb = list.iter().position(|lexeme| is_auxiliary(word_of(lexeme))).filter(|verb| *verb > 0);
-    let Some(verb) = verb else { return };
-    let is_thing =
-        |at: usize| category(&list[at..verb]).is_some() || names.asset_words(&list[at..verb]).is_some();
-    let is_list = list[..verb].iter().any(is_mark) && is_thing(0) && word(list, 0).ends_with('s');
-    let told: Vec<Lexeme> = list[verb - 1..].to_vec();
-    let order = longest(&lexemes[end + 1..], &VERBS).is_some()
-        || longest_phrase(&lexemes[end + 1..], ASKING).is_some();
-    if is_left && is_list && order && asks_nothing(&told, names) && !list[verb..].iter().any(is_mark) {
-        lexemes.drain(..=end);
-    }
+    const PUT_IT: &Phrases = &Phrases::of(&["drop it", "put it", "lay it", "place it", "set it", "leave it", "stand it", "it should lie", "it should be", "it should stand", "it should go", "it must lie", "it must be", "it must stand", "it must go", "it belongs", "it lies", "it goes", "it is to lie", "it is to stand", "it has to lie", "it has to stand", "let it lie", "let it stand", "it should sit", "it may lie", "it can go", "it can stand"]);
+    let left = longest_phrase(lexemes, LEFT)?;
+    longest_phrase(&lexemes[left..], &["a", "an", "two", "three", "some"])?;
+    let mark = lexemes.iter().position(is_mark)?;
+    let behind = lexemes.get(mark + 1..)?;
+    let put = longest_phrase(behind, PUT_IT).filter(|put| *put < behind.len())?;
+    let order = word_at(&lexemes[0], "put");
+    Some(
+        std::iter::once(order)
+            .chain(lexemes[left..mark].iter().cloned())
+            .chain(behind[put..].iter().cloned())
+            .collect(),
+    )
 }
 
 /// The parts between marks and brackets.
@@ -305,7 +233,7 @@ fn rest_of(lexemes: &[Lexeme], out: &[Clause]) -> Vec<Lexeme> {
 }
 
 /// Whether the rest says something, and no pronoun in it stands for what was left out before it.
-fn stands_alone(lexemes: &[Lexeme], rest: &[Lexeme], out: &[Clause]) -> bool {
+pub(super) fn stands_alone(lexemes: &[Lexeme], rest: &[Lexeme], out: &[Clause]) -> bool {
     let Some(start) = rest.first().map(|lexeme| lexeme.start) else { return false };
     let is_headless = out.iter().any(|clause| lexemes[clause.from].start < start);
     let pronoun = rest.iter().position(|lexeme| PRONOUNS.contains(&word_of(lexeme)));
@@ -314,7 +242,7 @@ fn stands_alone(lexemes: &[Lexeme], rest: &[Lexeme], out: &[Clause]) -> bool {
 }
 
 /// Whether a clause tells something and asks for nothing.
-fn tells(clause: &[Lexeme], names: &Names<'_>) -> bool {
+pub(super) fn tells(clause: &[Lexeme], names: &Names<'_>) -> bool {
     if is_saying(clause) {
         return true;
     }
@@ -383,7 +311,7 @@ fn names_thing(clause: &[Lexeme], names: &Names<'_>) -> bool {
 }
 
 /// Whether nothing in a clause asks, orders, forbids or corrects, or says of what colour something is to be.
-fn asks_nothing(clause: &[Lexeme], names: &Names<'_>) -> bool {
+pub(super) fn asks_nothing(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let begins_with_it = ["it", "they", "this", "that"].contains(&word(clause, 0));
     // "The mechanic must reach it" is so, and "the bench must reach the wall" is asked for.
     let must = clause.iter().position(|lexeme| word_of(lexeme) == "must");
@@ -398,7 +326,7 @@ fn asks_nothing(clause: &[Lexeme], names: &Names<'_>) -> bool {
 }
 
 /// Whether a word of asking stands in a clause, or an order behind "and".
-fn asks(clause: &[Lexeme]) -> bool {
+pub(super) fn asks(clause: &[Lexeme]) -> bool {
     let own = longest_phrase(clause, OWN).filter(|words| {
         let deed = &clause[*words..];
         longest(deed, &VERBS).is_none() || OWN_DEEDS.contains(&word(deed, 0))

@@ -46,8 +46,8 @@ const SETS: [&str; 44] = [
     "thirtyninth.edits",
     "fortieth.edits",
     "fortyfirst.edits",
-    "own38b.edits",
-    "own38a.edits",
+    "fortysecond.edits",
+    "fortythird.edits",
     "turned.edits",
 ];
 
