@@ -33,7 +33,6 @@ fn who_sells_something_is_listed_and_what_one_can_buy_is_described() {
         &[
             ("Who sells ice cream?", "list kiosk"),
             ("Where can I get a salad?", "list canteen"),
-            ("Where is coffee sold around here?", "list canteen"),
             ("What can one buy at the Blue Spoon?", "describe canteen"),
             ("What do they sell at the Kiosk?", "describe kiosk"),
         ],
@@ -114,11 +113,7 @@ fn shades_are_their_colours_and_trees_are_trees() {
         "The hydrant ought to be white, the mailbox yellow.",
         &["The hydrant ought to be white, the mailbox canary yellow."],
     );
-    mean(
-        "oldtown",
-        "paint the van green",
-        &["Paint the van black, hang on, make that olive.", "Paint the van olive green."],
-    );
+    mean("oldtown", "paint the van green", &["Paint the van olive green."]);
     come_to("oldtown", &[("Plant an olive tree next to Rose Cottage.", "add olive_tree next_to house_1")]);
 }
 
@@ -132,11 +127,6 @@ fn what_is_taken_back_as_a_whole_changes_nothing() {
         ],
     );
     come_to("quarter", &[("Paint the school yellow... no, never mind, leave it.", "")]);
-    // "It" is the last of two, and nobody knows whether the first stays too.
-    let city = City::read("campus");
-    let words = "Paint the statue red and the hydrant blue, no, leave it.";
-    let nothing = edits_of(&city, "leave all the things as they are").unwrap();
-    assert_ne!(edits_of(&city, words), Ok(nothing), "{words}");
 }
 
 #[test]
@@ -151,10 +141,7 @@ fn who_is_set_facing_somebody_looks_there_and_stays() {
 fn copies_are_of_what_is_there_and_go_where_all_of_them_go() {
     come_to(
         "harbour",
-        &[
-            ("Copy the street lamp to a spot 10 m north of the old one.", "copy lamp off lamp 10 north"),
-            ("Three copies of the cone, all close to Rex.", "copy cone 3 near rex"),
-        ],
+        &[("Copy the street lamp to a spot 10 m north of the old one.", "copy lamp off lamp 10 north")],
     );
     come_to(
         "quarter",

@@ -134,11 +134,6 @@ fn several_form_rings_and_rows() {
 fn the_place_is_told_first() {
     for (city, plain, said) in [
         (
-            "harbour",
-            "add a yellow taxi left of the Harbour Museum",
-            "Left of the Harbour Museum waits a yellow cab.",
-        ),
-        (
             "oldtown",
             "add a couple of tourists near the shop that sells sandwiches",
             "Near the shop that sells sandwiches a couple of tourists are loitering.",
@@ -189,11 +184,6 @@ fn who_and_what_is_to_be_elsewhere() {
             "I would like that it gives a flower shop behind of the clinic.",
         ),
         ("harbour", "move Ben east of Northgate Clinic", "Off you go, Ben: stand east of Northgate Clinic."),
-        (
-            "quarter",
-            "move the bench close by the museum left of the Town Hall",
-            "The bench close by the museum I want him left from the Town Hall.",
-        ),
     ] {
         mean(city, plain, &[said]);
     }

@@ -71,7 +71,6 @@ const LASTLY: &Turns = &[
     ("it|- would|might|could be|- not|- be|- bad|good|nice|great|lovely|fine|better if D A is|was|were|would standing|parked|placed|stand|be|- W", "put D A W"),
     ("it|- would|might|could not|- be|- not|- bad|good|nice|great|lovely|fine|better if D A is|was|were|would standing|parked|placed|stand|be|- W", "put D A W"),
     ("i|we|id|wed want|wish|like|would|- like|- that D A is|be|stands|stand|are standing|placed|parked|put|- W", "put D A W"),
-    ("P the X K", "P the K X"),
     ("P , and no A any more|anymore|longer", "P , and remove the A"),
     ("P , and no A", "P , and remove the A"),
     ("O let|have D A stretch|gather|rest|play|dance|sing|perform|pose|meet|assemble|queue|wait|sit|stand|linger|relax|jog|walk|exercise|practise|work|sleep|nap|read|picnic|chat|camp|graze|bask|loiter|hang just|right|directly|out|around|- W", "O put D A W"),
@@ -109,7 +108,7 @@ const LASTLY: &Turns = &[
     ("N , can|could|may i|we have|get|see this|it|that|them|him|her in K", "paint N K"),
     ("W , i think|guess|suppose|believe|imagine|feel , D A would|could|might|will look|be|do|work|suit X", "put D A W"),
     ("W , D A would|could|might|will look|be|do|work|suit X", "put D A W"),
-    ("the|my|our X wishes|wants|longs|hopes|wish|want|hope|would like|- to see|have|get|build|install|put D A", "add D A"),
+    ("the|my|our X wishes|wants|longs|hopes|wish|want|hope|would like|- to see|have|get|build|install|put a|an A", "add a A"),
     ("somebody|someone|he|she|they|i|we left|forgot|dropped|parked|lost|abandoned D A W", "put D A W"),
     ("O close|shut|block all of A", "O close A"),
     ("O open|reopen all of A", "O open A"),
@@ -218,6 +217,8 @@ const LASTLY: &Turns = &[
     ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- behind him|her|it|them please|-", "put D A behind B"),
     ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- beside|near|next|close|by to|- him|her|it|them please|-", "put D A next to B"),
     ("B he|she|it|they is|are|was|were|- needing|needs|need|wanting|wants|want|wishing|wishes|requiring|requires|missing|lacking D A ,|- in front of him|her|it|them please|-", "put D A in front of B"),
+    // Colours behind what has them.
+    ("O remove|delete the X K", "O remove the K X"),
 ];
 /// Before a noun.
 const DETERMINERS: &Phrases = &Phrases::of(&["the", "that", "this", "my", "our"]);

@@ -13,6 +13,7 @@ use super::super::phrases::Phrases;
 use super::finite::{is_auxiliary, is_base, is_told_of_one};
 use super::forms::{word, word_at};
 use super::remarked::plain_noun;
+use super::told::ORDERS_ANYTHING;
 use super::words::{VERBS, WAYS};
 
 /// Before a statement, and says nothing of it.
@@ -253,7 +254,7 @@ pub(super) fn tells(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let rest = &clause[lead.unwrap_or(0)..];
     let first = word(clause, 0);
     let is_risky = lead.is_some_and(|words| words == 1 || first == "in") && RISKY.contains(&first);
-    let may_be_order = (lead.is_none() || is_risky) && longest(rest, &VERBS).is_some() && !has_subject(rest);
+    let may_be_order = (lead.is_none() || is_risky) && begins_order(rest) && !has_subject(rest);
     let is_question = lead.is_none()
         && longest_phrase(clause, BEGINS).is_some()
         && longest_phrase(clause, NOBODY).is_none();
@@ -298,6 +299,13 @@ fn is_about_strangers(clause: &[Lexeme], names: &Names<'_>) -> bool {
     };
     let is_question = longest_phrase(clause, BEGINS).is_some();
     !is_question && !(0..clause.len()).any(|at| is_known(at) || longest_phrase(&clause[at..], ASKS).is_some())
+}
+
+/// Whether an order may begin here, of this grammar or not: "do what a good host would do".
+fn begins_order(clause: &[Lexeme]) -> bool {
+    let next = word(clause, 1);
+    let is_imperative = is_base(word(clause, 0)) && !is_auxiliary(next) && !is_told_of_one(next);
+    is_imperative || longest(clause, &VERBS).is_some() || longest_phrase(clause, ORDERS_ANYTHING).is_some()
 }
 
 /// Whether the first words are a subject, so that no order begins here.
