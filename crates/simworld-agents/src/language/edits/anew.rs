@@ -7,6 +7,7 @@ use super::super::lexer::{Lexeme, is_mark, word_of};
 use super::super::lexicon::longest_phrase;
 use super::super::names::Names;
 use super::super::phrases::Phrases;
+use super::forms::is_same;
 use super::questions::QUESTIONS;
 use super::retold::{Turns, told_by};
 use super::set_scenes::SET_SCENES;
@@ -36,8 +37,7 @@ pub(super) fn ways(
     stock: &Stock,
     focus: &Focus,
 ) -> Vec<Vec<Lexeme>> {
-    let mut spelt = heard.to_vec();
-    slips::correct(words, &mut spelt, names, stock, &focus.streets);
+    let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
     // A word that these turns alone know may have been taken for a slip.
     [heard, &spelt[..]].into_iter().filter_map(told).collect()
 }
@@ -46,12 +46,10 @@ pub(super) fn ways(
 fn told(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let kept = without_nothing_else(lexemes);
     let told = told_by(&kept, &[QUESTIONS, SET_SCENES, SEVERAL]);
-    let is_same =
-        told.len() == lexemes.len() && told.iter().zip(lexemes).all(|(one, other)| one.token == other.token);
     // "Who is next to me?" is about who speaks, of whom nothing is known in words like these.
     let has = |word: &str| told.iter().any(|lexeme| word_of(lexeme) == word);
     let is_about_me = has("people") && (has("me") || has("you") || has("us"));
-    (!is_same && !is_about_me && told.iter().any(|lexeme| !is_mark(lexeme))).then_some(told)
+    (!is_same(&told, lexemes) && !is_about_me && told.iter().any(|lexeme| !is_mark(lexeme))).then_some(told)
 }
 
 /// Without "and don't touch anything else" at the end.

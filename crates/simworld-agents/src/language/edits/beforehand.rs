@@ -8,7 +8,7 @@ use super::super::phrases::Phrases;
 use super::finite::is_auxiliary;
 use super::forms::word;
 use super::remarked::plain_noun;
-use super::statements::{Clause, asks, asks_nothing, stands_alone, tells, with_noun};
+use super::statements::{Clause, asks, asks_nothing, is_pronoun, stands_alone, tells, with_noun};
 use super::words::{ABOUT_IT, VERBS, WAYS};
 
 /// What asks to be told something.
@@ -24,7 +24,7 @@ const ASKING: &Phrases = &Phrases::of(&[
     "what",
 ]);
 
-/// Leaves out what stands between two dashes and tells something, and what is told of a list of things before an order: neither can wait.
+/// Leaves out such asides, one kind after the other.
 pub(super) fn leave_out(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     without_dashed(words, lexemes, names);
     without_told_lists(lexemes, names);
@@ -40,8 +40,7 @@ fn asked_about(words: &str, lexemes: &mut Vec<Lexeme>) {
     let is_asked = lexemes
         .get(noun)
         .is_some_and(|mark| is_mark(mark) && words.get(mark.start..mark.end).is_some_and(|said| said == "?"));
-    let has_pronoun =
-        lexemes.iter().skip(noun).any(|lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme)));
+    let has_pronoun = lexemes.iter().skip(noun).any(is_pronoun);
     if is_asked && has_pronoun {
         *lexemes = with_noun(&lexemes[noun + 1..], &lexemes[..noun]);
     }

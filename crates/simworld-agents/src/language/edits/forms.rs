@@ -51,6 +51,11 @@ pub(super) fn is_form(word: &str) -> bool {
     base_of(word).iter().any(|base| VERBS.begins(base))
 }
 
+/// Whether both say the same, wherever their words were read.
+pub(super) fn is_same(one: &[Lexeme], other: &[Lexeme]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.token == other.token)
+}
+
 /// The word at a place; empty where none is.
 pub(super) fn word(lexemes: &[Lexeme], at: usize) -> &str {
     match lexemes.get(at).map(|lexeme| &lexeme.token) {

@@ -67,6 +67,13 @@ struct Ear<'a> {
     begins_with_place: bool,
 }
 
+impl<'a> Ear<'a> {
+    /// The names of the scene, and of what was made in words that were heard.
+    fn names(&self, heard: &[Lexeme]) -> Names<'a> {
+        Names::new(self.scene, self.focus.from, RANGE).with_made(heard, &self.stock.catalogue)
+    }
+}
+
 impl Ear<'_> {
     /// The wishes of what was heard, or of some of it.
     fn read(&self, mut lexemes: Vec<Lexeme>) -> Result<Reading, EditError> {
@@ -144,7 +151,7 @@ impl Ear<'_> {
         read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
         let Self { words, scene, stock, focus, .. } = *self;
-        let names = Names::new(scene, focus.from, RANGE).with_made(&heard, &stock.catalogue);
+        let names = self.names(&heard);
         slips::correct(words, &mut heard, &names, stock, &focus.streets);
         let (view, memo) = (view_of(scene, focus), Memo::default());
         let reader =
@@ -178,15 +185,15 @@ impl Ear<'_> {
         heard: &[Lexeme],
         read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus, .. } = *self;
-        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
         self.first_granted(lastly::ways(words, heard, &names, stock, focus), read)
     }
 
     /// As [`Self::in_other_words`], by questions in other words and by scenes that are set.
     fn told_anew(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus, .. } = *self;
-        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
         self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
     }
 
@@ -208,10 +215,9 @@ impl Ear<'_> {
 
     /// As [`Self::in_other_words`], by where things stand that are told round about.
     fn placed(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, scene, stock, focus, .. } = *self;
-        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
-        let mut spelt = heard.to_vec();
-        slips::correct(words, &mut spelt, &names, stock, &focus.streets);
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
         let placed = [heard, &spelt[..]].map(|said| placed::ways(words, said, &names)).concat();
         placed.into_iter().map(|way| self.read(way)).find(|anew| self.is_granted(anew)).unwrap_or(read)
     }
@@ -222,8 +228,7 @@ impl Ear<'_> {
         heard: &[Lexeme],
         mut read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
-        let Self { scene, stock, focus, .. } = *self;
-        let names = Names::new(scene, focus.from, RANGE).with_made(heard, &stock.catalogue);
+        let names = self.names(heard);
         let is_open = |refused: &EditError| {
             matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. })
         };

@@ -9,7 +9,7 @@ use super::super::lexer::{Lexeme, is_mark, word_of};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::phrases::Phrases;
-use super::forms::{word, word_at, words_at};
+use super::forms::{is_same, word, word_at, words_at};
 use super::retold::{Turns, told_by};
 use super::stood::point_at;
 use super::words::{VERBS, Verb};
@@ -248,8 +248,7 @@ pub(super) fn ways(
     stock: &Stock,
     focus: &Focus,
 ) -> Vec<Vec<Lexeme>> {
-    let mut spelt = heard.to_vec();
-    slips::correct(words, &mut spelt, names, stock, &focus.streets);
+    let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
     let by_sound = |lexemes: &[Lexeme]| slips::by_sound(words, lexemes, names, stock, &focus.streets);
     // A slip that was put right by its letters may have been one of sound.
     let sounded = by_sound(&spelt).or_else(|| by_sound(heard));
@@ -276,10 +275,6 @@ pub(super) fn ways(
 /// A sentence by the turns of phrase that are tried last.
 pub(super) fn in_other_words(lexemes: &[Lexeme]) -> Vec<Lexeme> {
     told_by(lexemes, &[LASTLY])
-}
-
-fn is_same(one: &[Lexeme], other: &[Lexeme]) -> bool {
-    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.token == other.token)
 }
 
 /// "In the scooter's old place", "where the scooter used to stand": where it stood within the sentence, or before it was moved or taken away by an

@@ -2,6 +2,7 @@
 //! [`super::turns`]. They are tried behind all others, and so only where a sentence was understood in no other way.
 
 use super::super::lexer::Lexeme;
+use super::forms::is_same;
 use super::retold::{Turns, told_by};
 
 /// Turns of phrase and what they mean, of one sentence each.
@@ -112,9 +113,7 @@ const LOOSE: &Turns = &[
 /// Each sentence by these turns of phrase, if one of them is one.
 pub(super) fn in_plain_words(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let told = told_by(lexemes, &[LOOSE]);
-    let is_as_said =
-        told.len() == lexemes.len() && told.iter().zip(lexemes).all(|(one, other)| one.token == other.token);
-    (!is_as_said).then_some(told)
+    (!is_same(&told, lexemes)).then_some(told)
 }
 
 /// Every word of the table, for the spelling.

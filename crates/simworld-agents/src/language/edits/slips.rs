@@ -155,6 +155,19 @@ enum Slip {
     Letter,
 }
 
+/// A sentence with its slips put right.
+pub(super) fn corrected(
+    words: &str,
+    lexemes: &[Lexeme],
+    names: &Names<'_>,
+    stock: &Stock,
+    streets: &StreetNames,
+) -> Vec<Lexeme> {
+    let mut spelt = lexemes.to_vec();
+    correct(words, &mut spelt, names, stock, streets);
+    spelt
+}
+
 /// Puts unknown words right that are near one word of edits, and one only; marks of abbreviations go.
 pub(super) fn correct(
     words: &str,

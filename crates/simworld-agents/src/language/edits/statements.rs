@@ -18,10 +18,10 @@ use super::words::{VERBS, WAYS};
 
 /// Before a statement, and says nothing of it.
 #[rustfmt::skip]
-const LEADS: &Phrases = &Phrases::of(&["or", "because", "since", "as", "for", "cause", "cos", "coz", "so that", "so", "where", "when", "which", "while", "whereas", "although", "though", "even though", "seeing that", "seeing as", "given that",
+const LEADS: &Phrases = &Phrases::of(&["because", "since", "as", "for", "cause", "cos", "coz", "so that", "so", "where", "when", "which", "while", "whereas", "although", "though", "even though", "seeing that", "seeing as", "given that",
     "now that", "not that", "or so", "considering", "considering that", "whenever", "wherever", "after all", "otherwise", "and", "but", "which is where", "which is when", "which is why", "which is what", "the way", "just as", "knowing that", "hoping that", "in case", "or", "who", "whose", "whom"]);
 /// Of these, those behind which an order, a condition or a correction may follow as well.
-const RISKY: &[&str] = &["and", "but", "or", "so", "when", "whenever", "wherever", "in case", "otherwise"];
+const RISKY: &[&str] = &["and", "but", "or", "so", "when", "whenever", "wherever", "otherwise"];
 /// What asks, forbids, limits or corrects, wherever it stands.
 #[rustfmt::skip]
 const ASKS: &Phrases = &Phrases::of(&["please", "should", "shall", "ought", "instead", "except", "unless", "until", "rather than", "only the", "just the", "let", "lets", "to be put", "to be moved", "to go", "not the", "no the", "make that", "make it", "can you", "could you", "would you", "will you", "can we", "could we",
@@ -154,7 +154,6 @@ fn standing_alone(
         return Some(rest);
     }
     let start = rest.first()?.start;
-    let is_pronoun = |lexeme: &Lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme));
     rest.iter().find(|lexeme| is_pronoun(lexeme))?;
     let mut nouns = out.iter().filter(|clause| lexemes[clause.from].start < start).filter_map(|clause| {
         let from = clause.from;
@@ -166,9 +165,13 @@ fn standing_alone(
     Some(with_noun(&rest, &noun))
 }
 
+/// Whether a word stands for what something is done to.
+pub(super) fn is_pronoun(lexeme: &Lexeme) -> bool {
+    ["it", "him", "her", "them"].contains(&word_of(lexeme))
+}
+
 /// The words with a noun in the place of their pronouns.
 pub(super) fn with_noun(rest: &[Lexeme], noun: &[Lexeme]) -> Vec<Lexeme> {
-    let is_pronoun = |lexeme: &Lexeme| ["it", "him", "her", "them"].contains(&word_of(lexeme));
     let said = |lexeme: &Lexeme| if is_pronoun(lexeme) { noun.to_vec() } else { vec![lexeme.clone()] };
     rest.iter().flat_map(said).collect()
 }
@@ -253,7 +256,7 @@ pub(super) fn tells(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let lead = longest_phrase(clause, LEADS);
     let rest = &clause[lead.unwrap_or(0)..];
     let first = word(clause, 0);
-    let is_risky = lead.is_some_and(|words| words == 1 || first == "in") && RISKY.contains(&first);
+    let is_risky = lead == Some(1) && RISKY.contains(&first);
     let may_be_order = (lead.is_none() || is_risky) && begins_order(rest) && !has_subject(rest);
     let is_question = lead.is_none()
         && longest_phrase(clause, BEGINS).is_some()
