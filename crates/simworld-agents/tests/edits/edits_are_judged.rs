@@ -25,7 +25,7 @@ const FLOORS: [(&str, f64); 15] = [
     ("other_verbs", 95.0),
     ("ambiguous", 95.0),
     ("unsatisfiable", 95.0),
-    ("paraphrase", 92.0),
+    ("paraphrase", 95.0),
     ("typo", 95.0),
 ];
 

@@ -20,6 +20,13 @@ use crate::editing::Stock;
 #[rustfmt::skip]
 const LASTLY: &Turns = &[
     // What six sets of strangers asked for in other words.
+    ("for A , please , D B he|she|it|they should|must|shall have near|beside|next|by to|- him|her|it|them", "put D B near A"),
+    ("D A , left all alone right|just|directly|- W", "put D A W"),
+    ("A has nobody for|to playing|play with|- , make|let come D B near|next|beside of|to|- him|her|it|them", "put D B near A"),
+    ("A is ugly|awful|horrid|hideous|horrible , i|we not|dont want to|- see it|him|her|them any|- more|anymore|again", "remove the A"),
+    ("P set of wheels Q", "P car Q"),
+    ("on my left hand|side|- is|are missing D A", "put D A to the left of me"),
+    ("on my right hand|side|- is|are missing D A", "put D A to the right of me"),
     ("O show me|us|- A on a clear|starry B", "O make it a clear B"),
     ("P over to A , right|just|directly|- next|beside|near|by to|- it|him|her|them", "P next to A"),
     ("P over to A , right|just|directly|- next|beside|near|by to|- the trunk|foot|wall|door", "P next to A"),
