@@ -1,5 +1,6 @@
 //! Rows: things at even distances along a street, a thing, a line between two, or a circle.
 
+use std::cmp::Reverse;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use simworld_core::geometry::{Point2, Pose, direction, heading, planar};
@@ -26,6 +27,8 @@ const SLIDES: [f64; 5] = [0.0, 0.05, -0.05, 0.1, -0.1];
 const WIDE_SLIDES: [f64; 11] = [0.0, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15, 0.2, -0.2, 0.24, -0.24];
 /// Where this share of the places of a row does not do, the row is refused.
 const LEAST_SHARE: f64 = 0.5;
+/// A ring is as full as another by this share of its places.
+const NEARLY: f64 = 0.05;
 /// Off a kerb or a wall things of a row are tried so far, m.
 const OFFS: [f64; 7] = [0.5, 0.8, 1.2, 1.8, 2.4, 3.2, 4.2];
 /// Between things of a row there is a hand's breadth, m.
@@ -90,21 +93,15 @@ impl Applier<'_> {
         }
         let enough = |row: &Row| match spacing {
             Spacing::Count(_) => row.left_out == 0,
-            Spacing::Every(_) => {
-                row.poses.len() as f64 >= LEAST_SHARE * (row.poses.len() + row.left_out) as f64
-            }
+            Spacing::Every(_) => row.share() >= LEAST_SHARE,
         };
         if matches!(line, Line::Road { sides: Sides::Both, .. }) && rows.iter().any(enough) {
             rows.retain(enough);
             return Ok(rows);
         }
         // Of the sides that are as full that with most on their own ground, and of several rows as good the first.
-        let has_sides = matches!(line, Line::Road { .. } | Line::RoadSide { .. } | Line::Along { .. });
-        let best = rows.iter().enumerate().max_by_key(|(rank, row)| {
-            let astray = if has_sides { row.astray.len() } else { 0 };
-            (row.poses.len(), std::cmp::Reverse(astray), std::cmp::Reverse(*rank))
-        });
-        let best = best.map(|(rank, _)| rank).unwrap_or_default();
+        let best =
+            if matches!(line, Line::Around { .. }) { best_ring(&rows) } else { best_line(&rows, line) };
         if rows.get(best).is_some_and(enough) {
             return Ok(vec![rows.swap_remove(best)]);
         }
@@ -121,6 +118,22 @@ impl Applier<'_> {
         self.tried.push(tried);
         Err(EditError::NoRoom { what, place, why, relaxed, instead: Box::new(instead) })
     }
+}
+
+/// Of lines the fullest; of those that are as full that with most on their own ground, where it has sides, and then the first.
+fn best_line(rows: &[Row], line: &Line) -> usize {
+    let has_sides = matches!(line, Line::Road { .. } | Line::RoadSide { .. } | Line::Along { .. });
+    let best = rows.iter().enumerate().max_by_key(|(rank, row)| {
+        let astray = if has_sides { row.astray.len() } else { 0 };
+        (row.poses.len(), Reverse(astray), Reverse(*rank))
+    });
+    best.map(|(rank, _)| rank).unwrap_or_default()
+}
+
+/// Of rings the nearest that is nearly as full as any: a wider one has more places, and is no better for it.
+fn best_ring(rings: &[Row]) -> usize {
+    let most = rings.iter().map(Row::share).fold(0.0, f64::max);
+    rings.iter().position(|ring| ring.share() >= most - NEARLY).unwrap_or_default()
 }
 
 fn make_name(desc: &EntityDesc) -> String {
@@ -205,6 +218,11 @@ struct Row {
 }
 
 impl Row {
+    /// Which share of its places is taken; of none none.
+    fn share(&self) -> f64 {
+        self.poses.len() as f64 / (self.poses.len() + self.left_out).max(1) as f64
+    }
+
     /// The places of it that are free, though no row of any number is.
     fn free(&self) -> Relaxed {
         let at: Vec<Point2> = self.poses.iter().map(planar).collect();
@@ -300,12 +318,19 @@ fn stations(track: &Track<'_>, spacing: Spacing, extent: f64) -> Result<Vec<f64>
             if step > length {
                 return impossible(what, format!("there are only {length:.0} m; name a smaller distance"));
             }
-            let count = (length / step + 1e-9).floor() as usize;
+            let whole = (length / step + 1e-9).floor();
+            // A ring is closed, so that it is shared evenly by as many as come closest to the distance and have room.
+            let nearest = (length / step).round().max(1.0);
+            let has_room = length / nearest >= extent + HAND;
+            let count = if track.is_ring && has_room { nearest } else { whole } as usize;
             if count > MOST {
                 return impossible(
                     what,
                     format!("that would be {count} things; at most {MOST} stand in a row"),
                 );
+            }
+            if track.is_ring {
+                return Ok((0..count).map(|rank| rank as f64 / count as f64 * length).collect());
             }
             let rest = length - count as f64 * step;
             Ok((0..count).map(|rank| rest * 0.5 + (rank as f64 + 0.5) * step).collect())
@@ -472,6 +497,6 @@ fn rings<'a>(sampler: &'a Sampler<'a>, anchor: Solid) -> Vec<Track<'a>> {
         let spot: Box<dyn Fn(f64, f64) -> Option<Spot>> = Box::new(spot);
         Track { length: TAU * radius, is_ring: true, offs: vec![0.0], spot }
     };
-    let gaps = [0.8, 1.2, 1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 15.0];
+    let gaps = [0.8, 1.2, 1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 12.5, 15.0];
     gaps.into_iter().flat_map(|gap| [0.0, 0.13, 0.26].map(|turn| (gap, turn))).map(ring).collect()
 }

@@ -8,7 +8,9 @@ use std::panic::resume_unwind;
 use std::thread;
 
 use crate::city::City;
-use crate::edits_common::{Asked, CITIES, Verdict, is_whole, sampled_in, taught_in, verdict};
+use crate::edits_common::{
+    Asked, CITIES, Verdict, asked_elsewhere, is_whole, sampled_in, taught_in, verdict,
+};
 
 /// What each family scores at least, in percent. Raise it when the grammar learns; never lower it but for new sentences.
 const FLOORS: [(&str, f64); 15] = [
@@ -62,6 +64,30 @@ fn judged(asked_in: fn(&str) -> Vec<Asked>) -> Vec<Judged> {
         let judged = cities.into_iter().map(thread::ScopedJoinHandle::join);
         judged.flat_map(|judged| judged.unwrap_or_else(|panic| resume_unwind(panic))).collect()
     })
+}
+
+/// Sentences of one's own, in the notation of `tests/edits/README.md`: `SIMWORLD_EDITS=FOLDER cargo test -p simworld-agents --test edits elsewhere --
+/// --ignored --nocapture` prints what is wrong and the score.
+#[test]
+#[ignore = "scores what lies in the folder of SIMWORLD_EDITS"]
+fn what_is_asked_elsewhere_is_scored() {
+    let judged = judged(asked_elsewhere);
+    let mut families: BTreeMap<&str, Score> = BTreeMap::new();
+    for (city, asked, verdict) in &judged {
+        families.entry(&asked.family).or_default().count(verdict);
+        if *verdict != Verdict::Right {
+            println!("{}", line(city, asked, verdict));
+        }
+    }
+    for (family, score) in &families {
+        println!("{family:16} {:3} of {:3}, {} wrong edits", score.right, score.all, score.wrong_edits);
+    }
+    let right = families.values().map(|score| score.right).sum::<usize>();
+    println!("{:16} {right:3} of {:3}", "all", judged.len());
+    assert!(!judged.is_empty(), "SIMWORLD_EDITS names no folder with CITY.*.edits.toml");
+    let unasked = ["ambiguous", "unsatisfiable"]
+        .map(|family| families.get(family).map_or(0, |score| score.wrong_edits));
+    assert_eq!(unasked, [0, 0], "edits where an answer was due");
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! The sets of sentences, read from their files.
 
-use crate::tables::lines_of;
+use std::ffi::OsStr;
+use std::path::Path;
+
+use crate::tables::{lines_at, lines_of};
 
 pub(crate) const CITIES: [&str; 5] = ["harbour", "oldtown", "campus", "quarter", "crescent"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`. Not every city has every set.
@@ -92,6 +95,20 @@ pub(crate) fn sampled_in(city: &str) -> Vec<Asked> {
 pub(crate) fn newest_in(city: &str) -> Vec<Asked> {
     let mut sets = SETS.iter().rev().map(|set| asked_in_set(city, set));
     sets.find(|asked| !asked.is_empty()).unwrap_or_default()
+}
+
+/// What is asked in a city in the files `CITY.*.edits.toml` of the folder that `SIMWORLD_EDITS` names.
+pub(crate) fn asked_elsewhere(city: &str) -> Vec<Asked> {
+    let Some(folder) = std::env::var_os("SIMWORLD_EDITS") else { return Vec::new() };
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+    files.sort();
+    let is_of_city = |path: &Path| {
+        let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
+        name.starts_with(&format!("{city}.")) && name.ends_with(".edits.toml")
+    };
+    let lines = files.iter().filter(|path| is_of_city(path)).flat_map(|path| lines_at(path));
+    lines.map(|[family, words, meaning]| Asked { set: "elsewhere", family, words, meaning }).collect()
 }
 
 /// What is asked in a city by ourselves, of which all is to be right.

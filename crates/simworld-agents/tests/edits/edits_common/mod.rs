@@ -15,7 +15,7 @@ use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::traffic::RoadLeg;
 
-pub(crate) use asked::{Asked, CITIES, is_whole, newest_in, sampled_in, taught_in};
+pub(crate) use asked::{Asked, CITIES, asked_elsewhere, is_whole, newest_in, sampled_in, taught_in};
 
 use crate::city::City;
 
