@@ -41,6 +41,7 @@ mod stock;
 mod suits;
 mod surfaces;
 mod taken;
+mod tracks;
 mod workshop;
 
 pub use apply::Edited;

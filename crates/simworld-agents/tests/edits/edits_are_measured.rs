@@ -1,8 +1,11 @@
 //! Sizes, steps, shares and parts: what is told by measure, by another thing, or by what there is.
 
+use std::f64::consts::TAU;
+
 use crate::city::City;
 use simworld_agents::editing::{Edited, SceneEditor};
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::ops::atan2;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 
@@ -199,4 +202,37 @@ fn each_of_those_that_were_spoken_of_gets_one() {
     }
     let (_, _, outcome) = said("Ada and Bo each need a stool");
     assert_eq!(outcome.expect("it is understood").made.len(), 2);
+}
+
+/// The ways from the middle of a ring to those that stand in it, in the order of their angles.
+fn ring(words: &str, anchor: &str) -> (Vec<f64>, f64) {
+    let (city, world, outcome) = said(words);
+    let made = outcome.unwrap_or_else(|error| panic!("{words}: {error}")).made;
+    let at = |id| world.entity(id).expect("it is there").planar();
+    let ways: Vec<Vector2> = made.iter().map(|id| at(*id) - at(city.ids[anchor])).collect();
+    let mut angles: Vec<f64> = ways.iter().map(|way| atan2(way.y, way.x)).collect();
+    angles.sort_by(f64::total_cmp);
+    (angles, ways[0].norm())
+}
+
+#[test]
+fn a_ring_is_closed_where_it_begins() {
+    for every in [2.3, 2.7, 3.0, 3.3, 4.1] {
+        let words = format!("put a cone every {every} m around the statue");
+        let (angles, radius) = ring(&words, "statue");
+        let step = TAU / (TAU * radius / every).round();
+        for (rank, angle) in angles.iter().enumerate() {
+            let next = angles[(rank + 1) % angles.len()];
+            let steps = (next - angle).rem_euclid(TAU) / step;
+            // Each may slide by a tenth of a step to where there is room.
+            assert!((steps - steps.round()).abs() < 0.21, "{words}: {steps} steps behind #{rank}");
+        }
+    }
+}
+
+#[test]
+fn a_ring_is_no_wider_than_it_has_to_be() {
+    // With nothing in the way the ring is the narrowest: the corner of the statue, that of a cone and 0.8 m between them.
+    let (_, radius) = ring("put a cone every 2 m around the statue", "statue");
+    assert!(radius < 3.5, "{radius} m");
 }
