@@ -36,7 +36,8 @@ pub(crate) fn read(
     }
     let mut heard = hearing::hear(words, None);
     let begins_with_place = longest(&heard, &WAYS).is_some_and(|(way, _)| matches!(way, Way::To(_)));
-    let ear = Ear { words, scene, stock, focus, begins_with_place };
+    let tells_place = statements::tells_place(&heard);
+    let ear = Ear { words, scene, stock, focus, begins_with_place, tells_place };
     shades::in_plain_words(words, &mut heard);
     let read = ear.read(heard.clone());
     // What is said in one go has nothing that could be left out.
@@ -48,12 +49,17 @@ pub(crate) fn read(
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
     let stages =
         [Ear::in_other_words, Ear::placed, Ear::told_anew, Ear::without_statements, Ear::with_what_is_named];
-    stages.into_iter().fold(
-        read,
-        |read, stage| {
-            if ear.is_granted(&read) { read } else { stage(&ear, &heard, read) }
-        },
-    )
+    let read = stages
+        .into_iter()
+        .fold(read, |read, stage| if ear.is_granted(&read) { read } else { stage(&ear, &heard, read) });
+    match read {
+        Ok(reading) if ear.loses_place(&reading) => Err(EditError::NotUnderstood {
+            words: shortened(words),
+            fragment: String::new(),
+            hint: "say where it is to go".to_owned(),
+        }),
+        read => read,
+    }
 }
 
 /// A sentence, and the scene in which it is heard.
@@ -65,6 +71,8 @@ struct Ear<'a> {
     focus: &'a Focus,
     /// Whether the sentence begins with a place, so that what is made stands nowhere else.
     begins_with_place: bool,
+    /// Whether any of its parts does, so that something that is made stands somewhere.
+    tells_place: bool,
 }
 
 impl<'a> Ear<'a> {
@@ -125,15 +133,24 @@ impl Ear<'_> {
     /// Whether a sentence is understood, somebody has what it asks for, and what it is about first is there; or whether what is wrong with it
     /// is something else.
     fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
-        let stands_nowhere = |reading: &Reading| reading.wishes.iter().flatten().any(is_nowhere);
         match read {
-            Ok(reading) if self.begins_with_place && stands_nowhere(reading) => false,
+            Ok(reading) if self.loses_place(reading) => false,
             // What was found to be granted while it was read is not worked out anew.
             Ok(reading) => {
                 reading.held.is_some() || reading.lacking(self.stock).is_empty() && !self.is_missing(reading)
             }
             Err(refused) => !matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. }),
         }
+    }
+
+    /// Whether something new stands nowhere though a place was told.
+    fn loses_place(&self, reading: &Reading) -> bool {
+        let mut made =
+            reading.wishes.iter().flatten().filter(|wish| matches!(wish, Wish::Add { .. })).peekable();
+        let makes = made.peek().is_some();
+        makes
+            && (self.tells_place && made.clone().all(is_nowhere)
+                || self.begins_with_place && made.any(is_nowhere))
     }
 
     /// Whether what the first wish is about is not there. What later wishes are about may be made by earlier ones.
@@ -235,7 +252,7 @@ impl Ear<'_> {
         let mut asked = None;
         let left = statements::with_what_was_left(heard);
         for way in left.into_iter().chain(statements::without(heard, &names)) {
-            if asked.is_none() {
+            if asked.is_none() && !self.tells_place {
                 asked = Some(self.read(way.clone())).filter(|read| !read.as_ref().is_err_and(is_open));
             }
             let otherwise = lastly::in_other_words(&way);

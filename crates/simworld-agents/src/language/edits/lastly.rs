@@ -19,6 +19,13 @@ use crate::editing::Stock;
 /// Turns of phrase and what they mean, of one sentence each.
 #[rustfmt::skip]
 const LASTLY: &Turns = &[
+    ("P give A a|one quarter turn Q", "P turn A a quarter turn Q"),
+    ("P give A a|one quarter turn", "P turn A a quarter turn"),
+    ("P give A a|one half turn", "P turn A around"),
+    ("P the business|establishment|firm|premises|outlet|company|joint|enterprise|venue that|which sells|serves|offers B", "P the building that sells B"),
+    ("P get D A to pull|draw|drive|roll|cycle up|over|in|- W", "P put D A W"),
+    ("P apart|aside from those|the ones|- W", "P except the ones W"),
+    ("P bar|save|excluding|excepting|except those|the ones|- W", "P except the ones W"),
     // What six sets of strangers asked for in other words.
     ("for A , please , D B he|she|it|they should|must|shall have near|beside|next|by to|- him|her|it|them", "put D B near A"),
     ("D A , left all alone right|just|directly|- W", "put D A W"),

@@ -14,7 +14,7 @@ use super::finite::{is_auxiliary, is_base, is_told_of_one};
 use super::forms::{word, word_at};
 use super::remarked::plain_noun;
 use super::told::ORDERS_ANYTHING;
-use super::words::{VERBS, WAYS};
+use super::words::{VERBS, WAYS, Way};
 
 /// Before a statement, and says nothing of it.
 #[rustfmt::skip]
@@ -214,6 +214,14 @@ fn clauses(lexemes: &[Lexeme]) -> Vec<Clause> {
         }
     }
     clauses
+}
+
+/// Whether a part begins with a place: "a rack, please, beside the frobnicator that sells newspapers".
+pub(super) fn tells_place(lexemes: &[Lexeme]) -> bool {
+    let begins_with_place = |clause: &Clause| {
+        longest(&lexemes[clause.from..clause.end], &WAYS).is_some_and(|(way, _)| matches!(way, Way::To(_)))
+    };
+    clauses(lexemes).iter().any(begins_with_place)
 }
 
 /// The rest of a sentence. Of the marks around what is left out one stays, and none where the sentence goes on with a place.

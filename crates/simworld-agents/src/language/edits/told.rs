@@ -4,7 +4,7 @@
 //! once more by their shape: somebody or something, and behind it a verb that asks for nothing. What names nothing of the scene may be
 //! told in more ways than what does. A part that may ask for something, take something back or set a condition is never passed over.
 
-use super::super::lexer::{Token, is_mark};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::PAINTS;
@@ -51,6 +51,14 @@ const NO_VERB: &[&str] = &["and", "or", "of", "in", "on", "at", "by", "to", "for
 /// Who is told of and is nobody in particular.
 #[rustfmt::skip]
 const CROWD: &Phrases = &Phrases::of(&["people", "folks", "kids", "children", "visitors", "guests", "everybody", "everyone", "customers", "students", "tourists"]);
+/// Whether an order begins here, this grammar's or not, also behind a word that only says when: "then give it a twin".
+fn orders_anything(words: &[Lexeme]) -> bool {
+    const THEN: &Phrases =
+        &Phrases::of(&["then", "and then", "after that", "afterwards", "next", "finally", "lastly", "now"]);
+    let then = longest_phrase(words, THEN).unwrap_or(0);
+    longest_phrase(&words[then..], ORDERS_ANYTHING).is_some()
+}
+
 impl Reader<'_> {
     /// Whether a part tells something, asks for nothing, and leaves what is asked for as it is.
     pub(super) fn is_told(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {
@@ -80,8 +88,7 @@ impl Reader<'_> {
             && !self.goes_on_within(from, end)
             // "Do what a good host would do" is an order, though nobody knows which.
             && !(start..end).any(|at| {
-                (at == start || is_mark(&self.lexemes[at - 1]))
-                    && longest_phrase(&self.lexemes[at..end], ORDERS_ANYTHING).is_some()
+                (at == start || is_mark(&self.lexemes[at - 1])) && orders_anything(&self.lexemes[at..end])
             })
             && longest_phrase(&self.lexemes[from..end], WHEN).is_none()
             && longest_phrase(words, WHEN).is_none()
