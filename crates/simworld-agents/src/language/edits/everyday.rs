@@ -55,7 +55,7 @@ pub(super) const EVERYDAY: &Turns = &[
     ("O tell|inform|teach|enlighten my|our|the|these|this|those|his|her|their|your X a|something|anything|more|everything|all|some bit|little|few|lot|- more|thing|things|words|word|facts|- about|on A", "describe A"),
     ("O tell|inform|teach|enlighten my|our|the|these|this|those|his|her|their|your visitors|visitor|guests|guest|kids|children|pupils|students|class|group|wife|husband|mother|father|son|daughter|friend|friends|tourists|customers|team|boss|colleagues|audience|readers|viewers|family|crew about A", "describe A"),
     // What is to be gone.
-    ("O make|let vanish|disappear|evaporate|go for|to me|us N", "O remove N"),
+    ("O make|let vanish|disappear|evaporate for|to me|us N Q", "O remove N Q"),
     ("O A for me|us N Q", "O A N Q"),
     // What was lost is wanted anew.
     ("my|our|your|his|her|their|the A got|was|were|is|has|have|went been|gone|- stolen|nicked|pinched|lost|broken|smashed|wrecked|crushed|missing|ruined|vandalised|damaged|gone|burnt|burned|kaput|bust X|- , so|and|hence|- please|- put|place|set|add|stand|leave|park|get|bring|give|buy|plant me|us|- a|another|one new|second|fresh|- one|replacement|- W", "put a A W"),

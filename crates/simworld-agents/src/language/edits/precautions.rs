@@ -22,9 +22,13 @@ pub(super) fn leave_out(lexemes: &mut Vec<Lexeme>) {
     while at < lexemes.len() {
         let begins =
             at == 0 || is_mark(&lexemes[at - 1]) || ["and", "then", "so"].contains(&word(lexemes, at - 1));
-        match end_of(lexemes, at).filter(|_| begins || is_last(lexemes, at)) {
-            Some(end) => cut(lexemes, at, end),
-            None => at += 1,
+        if let Some(end) = end_of(lexemes, at)
+            && (begins || is_last(lexemes, at, end))
+        {
+            let (from, to) = with_its_marks(lexemes, at, end);
+            lexemes.drain(from..to);
+        } else {
+            at += 1;
         }
     }
 }
@@ -39,21 +43,20 @@ fn end_of(lexemes: &[Lexeme], at: usize) -> Option<usize> {
 }
 
 /// Whether a precaution stands at the end of its sentence, behind what it is for.
-fn is_last(lexemes: &[Lexeme], at: usize) -> bool {
-    let end = end_of(lexemes, at);
-    at > 1 && end.is_some_and(|end| lexemes.get(end).is_none_or(|mark| mark.token == Token::Break))
+fn is_last(lexemes: &[Lexeme], at: usize, end: usize) -> bool {
+    at > 1 && lexemes.get(end).is_none_or(|mark| mark.token == Token::Break)
 }
 
-/// Takes words out, with one of the marks around them, or with both where nothing but a joint stands before.
-fn cut(lexemes: &mut Vec<Lexeme>, at: usize, end: usize) {
+/// The words with one of the marks around them, or with both where nothing but a joint stands before.
+fn with_its_marks(lexemes: &[Lexeme], at: usize, end: usize) -> (usize, usize) {
     let is_comma = |at: usize| lexemes.get(at).is_some_and(|lexeme| lexeme.token == Token::Comma);
     let before = at > 0 && is_comma(at - 1);
     let behind = is_comma(end);
     let joint = at.checked_sub(if before { 2 } else { 1 }).map_or("", |at| word(lexemes, at));
     let is_joint = ["and", "then", "so", "but", "also", "please"].contains(&joint);
     let from = if before && (is_joint || !behind) { at - 1 } else { at };
-    let to = if behind && (at == 0 || from == at || is_joint) { end + 1 } else { end };
-    lexemes.drain(from..to);
+    let to = if behind && (from == at || is_joint) { end + 1 } else { end };
+    (from, to)
 }
 
 #[cfg(test)]
