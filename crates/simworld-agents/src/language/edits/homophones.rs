@@ -17,10 +17,10 @@ const HOMOPHONES: &[(&[&str], &str)] = &[
     (&["fur tree"], "fir tree"), (&["fur trees"], "fir trees"), (&["pam tree"], "palm tree"), (&["rows bush"], "rose bush"), (&["rows bushes"], "rose bushes"), (&["rode sign"], "road sign"), (&["rode signs"], "road signs"),
     (&["streat lamp"], "street lamp"), (&["rowing bote"], "rowing boat"), (&["son dial", "sun dile"], "sundial"), (&["merry go rownd"], "merry go round"), (&["fire hidrant"], "fire hydrant"), (&["wheel barrel"], "wheelbarrow"),
     (&["wheely bin", "weely bin", "wheelie been"], "wheelie bin"),
-    (&["over hear"], "over here"), (&["right hear"], "right here"), (&["over their", "over theyre"], "over there"), (&["right their"], "right there"), (&["their is"], "there is"), (&["their are"], "there are"), (&["their should be"], "there should be"),
+    (&["over hear"], "over here"), (&["right hear"], "right here"), (&["their is"], "there is"), (&["their are"], "there are"), (&["their should be"], "there should be"),
     (&["buy the side of"], "by the side of"), (&["write next to", "rite next to"], "right next to"), (&["two the left", "too the left"], "to the left"), (&["two the right", "too the right", "to the write", "to the rite"], "to the right"),
     (&["next two the", "next too the"], "next to the"), (&["close two the", "close too the"], "close to the"), (&["in frunt of", "in front off", "infront off"], "in front of"), (&["on top off"], "on top of"),
-    (&["knot far from"], "not far from"), (&["the hole street"], "the whole street"), (&["the hole of"], "the whole of"), (&["half the sighs", "half its sighs"], "half its size"), (&["twice the sighs", "twice its sighs"], "twice its size"),
+    (&["knot far from"], "not far from"), (&["the hole street"], "the whole street"), (&["half the sighs", "half its sighs"], "half its size"), (&["twice the sighs", "twice its sighs"], "twice its size"),
 ];
 
 /// Puts what was meant in its place. Names stay as they are.

@@ -14,7 +14,7 @@ const BETWEEN: &[&str] = &["and", "but", "yet", "very", "rather", "really", "wit
 /// That it would suit what follows.
 #[rustfmt::skip]
 const SUITS: &Phrases = &Phrases::of(&["would suit", "might suit", "could suit", "will suit", "would fit", "might fit", "will fit", "would do for", "would work for", "would be right for", "would be just right for", "would be perfect for", "would be ideal for", "would be great for",
-    "would be good for", "would be nice for", "would be lovely for", "would be best for", "would go well with", "would go with", "would match", "would complement", "would flatter", "would serve", "would help", "would become", "is what i need for", "is just right for", "is perfect for"]);
+    "would be good for", "would be nice for", "would be lovely for", "would be best for", "would go well with", "would go with", "would match", "would complement", "would flatter", "is what i need for", "is just right for", "is perfect for"]);
 /// What it suits takes no more words.
 const LONGEST: usize = 6;
 /// It suits nothing.
