@@ -29,7 +29,7 @@ pub(super) const EVERYDAY: &Turns = &[
     // Who is sent somewhere, or told to look at something.
     ("O send|dispatch|order|tell|ask|beg|instruct|command|invite D A to sit|stand|wait|stay|be|go|rest|lie|come|walk|move|play|work|sing|perform|busk over|up|out|down|- W", "O put D A W"),
     ("O send|dispatch|order|tell|ask|beg|instruct|command|invite A to sit|stand|wait|stay|be|go|rest|lie|come|walk|move|play|work|sing|perform|busk over|up|out|down|- W", "O move A W"),
-    ("P , and|then tell|ask|order|beg|instruct|command|get A to look|stare|gaze|glance|peer at|to|towards|toward|over|- B", "P and make A face B"),
+    ("P , and|then tell|ask|order|beg|instruct|command|get A to look|stare|gaze|glance|peer at|to|towards|toward|over|- B", "P , and make A face B"),
     ("P and|then tell|ask|order|beg|instruct|command|get A to look|stare|gaze|glance|peer at|to|towards|toward|over|- B", "P and make A face B"),
     ("O tell|ask|order|beg|instruct|command A to look|stare|gaze|glance|peer at|to|towards|toward|over|- B", "O make A face B"),
     ("O walk|move|bring|take|lead|guide|escort|shift|carry|push|pull|drag|wheel|roll|slide|send|put|place A over|up|along|across|down|here|there|- so|until|till that|- he|she|it|they|hes|shes|its|theyre is|are|stands|stand|sits|sit|ends|end|winds|wind|waits|wait|- up|down|- standing|sitting|waiting|- right|just|directly|- W", "O move A W"),
@@ -48,9 +48,12 @@ pub(super) const EVERYDAY: &Turns = &[
     ("were N to|- stand|sit|be|go|move|live|wait|- over|- W , it|that|things|everything|they|he|she would|might|could|d X", "move N W"),
     ("were D A to|- stand|sit|be|go|grow|wait|- W , it|that|things|everything would|might|could|d X", "put D A W"),
     // All of them but some.
-    ("O paint|repaint|colour|color|dye|spray|make|turn|want|have N K , all|every|each|everyone|- one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O paint all N except V K"),
-    ("O remove|delete|erase|clear|scrap|ditch|bin N , all|every|each|everyone|- one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O remove all N except V"),
-    ("O move|shift|bring|push|carry N W , all|every|each|everyone|- one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O move all N except V W"),
+    ("O paint|repaint|colour|color|dye|spray|make|turn|want|have N K , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O paint all N except V K"),
+    ("O paint|repaint|colour|color|dye|spray|make|turn|want|have N K , except|bar|save|excluding|barring for|- V", "O paint all N except V K"),
+    ("O remove|delete|erase|clear|scrap|ditch|bin N , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O remove all N except V"),
+    ("O remove|delete|erase|clear|scrap|ditch|bin N , except|bar|save|excluding|barring for|- V", "O remove all N except V"),
+    ("O move|shift|bring|push|carry N W , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O move all N except V W"),
+    ("O move|shift|bring|push|carry N W , except|bar|save|excluding|barring for|- V", "O move all N except V W"),
     // Whom to tell of something.
     ("O tell|inform|teach|enlighten my|our|the|these|this|those|his|her|their|your X a|something|anything|more|everything|all|some bit|little|few|lot|- more|thing|things|words|word|facts|- about|on A", "describe A"),
     ("O tell|inform|teach|enlighten my|our|the|these|this|those|his|her|their|your visitors|visitor|guests|guest|kids|children|pupils|students|class|group|wife|husband|mother|father|son|daughter|friend|friends|tourists|customers|team|boss|colleagues|audience|readers|viewers|family|crew about A", "describe A"),
