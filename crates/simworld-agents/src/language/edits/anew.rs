@@ -1,5 +1,6 @@
 //! A sentence that was refused, heard anew in other words: questions ([`super::questions`]), scenes that are set by their weather
-//! ([`super::set_scenes`]), everyday frames ([`super::everyday`]), copies of which is told once more that all of them go somewhere, and what says that nothing else is to be touched.
+//! ([`super::set_scenes`]), everyday verbs and frames ([`super::everyday`]), copies of which is told once more that all of them go somewhere, and what says
+//! that nothing else is to be touched.
 //!
 //! Each comes to plainer words, and counts only if these are granted. So nothing that is understood is read otherwise.
 

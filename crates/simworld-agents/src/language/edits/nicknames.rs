@@ -9,11 +9,11 @@ use crate::editing::Stock;
 /// What is said, and what the catalogue calls it.
 #[rustfmt::skip]
 const NICKNAMES: &[(&[&str], &str)] = &[
-    (&["cab", "taxicab", "minicab", "cabby", "cabbie"], "taxi"),
+    (&["cab", "taxicab", "minicab"], "taxi"),
     (&["kid", "kiddo", "kiddie", "toddler", "nipper", "infant", "schoolchild", "schoolkid"], "child"),
     (&["lad", "laddie", "schoolboy"], "boy"),
     (&["lass", "lassie", "schoolgirl"], "girl"),
-    (&["bloke", "chap", "guy", "gentleman", "gentlemen", "fellow", "geezer", "gent"], "man"),
+    (&["bloke", "chap", "guy", "gentleman", "gentlemen", "fellow", "geezer"], "man"),
     (&["lady", "ladies", "gal"], "woman"),
 ];
 
