@@ -19,6 +19,7 @@ mod edits_by_policy;
 mod edits_can_be_answered;
 mod edits_carry_their_loads;
 mod edits_common;
+mod edits_in_other_words;
 mod edits_keep_land_use;
 mod edits_let_things_fall;
 #[path = "../shared/model_server/mod.rs"]

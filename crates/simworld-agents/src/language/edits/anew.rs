@@ -1,5 +1,6 @@
 //! A sentence that was refused, heard anew in other words: questions ([`super::questions`]), scenes that are set by their weather
-//! ([`super::set_scenes`]), copies of which is told once more that all of them go somewhere, and what says that nothing else is to be touched.
+//! ([`super::set_scenes`]), everyday verbs and frames ([`super::everyday`]), copies of which is told once more that all of them go somewhere, and what says
+//! that nothing else is to be touched.
 //!
 //! Each comes to plainer words, and counts only if these are granted. So nothing that is understood is read otherwise.
 
@@ -7,6 +8,7 @@ use super::super::lexer::{Lexeme, is_mark, word_of};
 use super::super::lexicon::longest_phrase;
 use super::super::names::Names;
 use super::super::phrases::Phrases;
+use super::everyday::EVERYDAY;
 use super::forms::is_same;
 use super::questions::QUESTIONS;
 use super::retold::{Turns, told_by};
@@ -45,7 +47,7 @@ pub(super) fn ways(
 /// The words told otherwise, if they are.
 fn told(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let kept = without_nothing_else(lexemes);
-    let told = told_by(&kept, &[QUESTIONS, SET_SCENES, SEVERAL]);
+    let told = told_by(&kept, &[QUESTIONS, SET_SCENES, SEVERAL, EVERYDAY]);
     // "Who is next to me?" is about who speaks, of whom nothing is known in words like these.
     let has = |word: &str| told.iter().any(|lexeme| word_of(lexeme) == word);
     let is_about_me = has("people") && (has("me") || has("you") || has("us"));

@@ -5,6 +5,7 @@
 //! is to "bench". None of them is taken for a verb but where one stands, before a new thing and a place or before a certain thing.
 
 use super::super::lexer::Lexeme;
+use super::everyday::EVERYDAY_FIRST;
 use super::retold::{Turns, told_by};
 
 /// Turns of phrase and what they mean, of one sentence each.
@@ -45,7 +46,7 @@ const DOINGS: &Turns = &[
 
 /// Each sentence by the first of these turns that it is.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
-    *lexemes = told_by(lexemes, &[DOINGS]);
+    *lexemes = told_by(lexemes, &[DOINGS, EVERYDAY_FIRST]);
 }
 
 #[cfg(test)]

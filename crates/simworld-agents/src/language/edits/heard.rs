@@ -16,10 +16,10 @@ use super::wish::Wish;
 use super::words::{WAYS, Way};
 use super::{
     Focus, Reading, anew, beforehand, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing,
-    gone_by_name, gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others,
-    paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt,
-    retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole,
-    withdrawn, wording,
+    gone_by_name, gone_once, headings, hesitations, homophones, lastly, made_once, margins, meant, narrowed,
+    nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, precautions, presence,
+    remarked, repairs, respelt, retold, rows, sells_both, shades, sky_stated, slips, spared, spoken,
+    statements, talk, view_of, which, whole, withdrawn, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -312,6 +312,8 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    precautions::leave_out(lexemes);
+    sky_stated::in_plain_words(lexemes);
     beforehand::leave_out(words, lexemes, names);
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);
@@ -325,6 +327,7 @@ fn put_plainly(
     breaks::in_plain_words(words, lexemes);
     wording::in_plain_words(words, lexemes);
     respelt::in_plain_spelling(words, lexemes);
+    homophones::in_plain_spelling(words, lexemes);
     periphrases::in_plain_words(lexemes);
     talk::in_plain_words(words, lexemes, names);
     doubted::in_plain_words(lexemes);

@@ -39,6 +39,11 @@ impl NewThing {
         {
             *last = "lamp";
         }
+        if let [.., last] = &mut words[..]
+            && let Some(plain) = super::nicknames::plainly(last, stock)
+        {
+            *last = plain;
+        }
         if let Some(asset) = self.called_by_size(&words, stock) {
             return Ok(self.made_from(asset, self.scale_of(&asset.name, 1.0, stock), season));
         }

@@ -31,6 +31,7 @@ mod doubted;
 mod dressed;
 mod each;
 mod ends;
+mod everyday;
 mod facing;
 mod finite;
 mod follow;
@@ -42,10 +43,12 @@ mod ground;
 mod headings;
 mod heard;
 mod hesitations;
+mod homophones;
 mod idle;
 mod lastly;
 mod likened;
 mod loose;
+mod lost_spaces;
 mod make;
 mod margins;
 mod meant;
@@ -56,6 +59,7 @@ mod mistaken;
 mod naming;
 mod narrowed;
 mod nearer;
+mod nicknames;
 mod noun;
 mod nth;
 mod offsets;
@@ -75,6 +79,7 @@ mod places;
 mod plain;
 mod polite;
 mod portions;
+mod precautions;
 mod predicates;
 mod presence;
 mod questions;
@@ -100,6 +105,7 @@ mod shared;
 mod shares;
 mod sizes;
 pub(super) mod sky;
+mod sky_stated;
 mod slips;
 mod sounds_like;
 mod spared;
@@ -411,6 +417,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(texts::words())
         .chain(periphrases::words())
         .chain(clock::words())
+        .chain(nicknames::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -51,13 +51,13 @@ impl Finder<'_> {
             Wish::Remove { what } => Edit::Remove { things: self.all(what)? },
             Wish::Move { what, at } => return self.moved(what, at),
             Wish::Replace { what, with } => return self.replaced(what, with),
-            Wish::Rotate { what, angle } => Edit::Rotate { things: self.all(what)?, angle: *angle },
+            Wish::Rotate { what, angle } => Edit::Rotate { things: self.each_once(what)?, angle: *angle },
             Wish::Face { what, towards } => self.facing(what, towards)?,
             Wish::FaceCompass { what, compass } => return self.facing_compass(what, *compass),
             Wish::Swap { one, other } => self.swapped(one, other.as_ref())?,
             Wish::Paint { what, paint } => Edit::Paint { things: self.all(what)?, color: paint.color() },
             Wish::Resize { what, size } => return self.resized(what, size),
-            Wish::Scale { what, factor } => Edit::Scale { things: self.all(what)?, factor: *factor },
+            Wish::Scale { what, factor } => Edit::Scale { things: self.each_once(what)?, factor: *factor },
             Wish::Copy { what, count, at } => {
                 Edit::Copy { thing: self.one(what)?, count: *count, stands: self.stands(at, &[])? }
             }
@@ -263,6 +263,17 @@ impl Finder<'_> {
                 things.push(self.one(one)?);
             } else {
                 things.extend(self.candidates(one)?);
+            }
+        }
+        Ok(things)
+    }
+
+    /// As [`Self::all`], each once: "the blue bench, yes, the blue one" is turned once.
+    fn each_once(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
+        let mut things: Vec<EntityId> = Vec::new();
+        for thing in self.all(what)? {
+            if !things.contains(&thing) {
+                things.push(thing);
             }
         }
         Ok(things)

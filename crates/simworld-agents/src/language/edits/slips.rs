@@ -10,7 +10,7 @@ use super::super::paint::PAINTS;
 use super::super::spelling::{NO_SLIP, correct_but, is_known};
 use super::super::streets::StreetNames;
 use super::super::verbs::base_form;
-use super::words;
+use super::{lost_spaces, words};
 use crate::editing::Stock;
 use crate::retrieval::is_synonym;
 
@@ -141,6 +141,7 @@ const USUAL: &[(&str, &str)] = &[
     ("si", "is"),
     ("wich", "which"),
     ("witch", "which"),
+    ("sno", "snow"),
 ];
 
 /// Behind "tow", that it is an order and no slip of "two".
@@ -279,7 +280,9 @@ impl Known<'_> {
         // "Annas" are no slip of another word in the plural.
         let is_of_name = word.strip_suffix('s').is_some_and(|stem| self.names.has_word(stem));
         let one = || right.or_else(|| nearest(word, &self.own).filter(|_| !is_name && !is_of_name));
-        compound(word, self.own.stock).or_else(|| one().map(|right| vec![right]))
+        let knows = |word: &str| self.own.contains(word) || self.names.has_word(word);
+        let apart = || lost_spaces::apart(word, &knows).filter(|_| !is_name);
+        compound(word, self.own.stock).or_else(apart).or_else(|| one().map(|right| vec![right]))
     }
 
     /// "Harbor Road" where the road is called Harbour Road.

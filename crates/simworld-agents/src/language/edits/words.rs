@@ -100,7 +100,7 @@ const VERB_ROWS: &[(&[&str], Verb)] = &[
         "were done with", "we are done with", "we dont want any", "part with", "strike out", "cross out", "rub out", "write off", "send packing", "wipe away", "clear up",
         "put an end to", "make short work of", "have done with", "call time on", "drop", "im over", "i am over", "we are over", "ive no use for", "weve no use for", "lets be rid of", "relieve me of", "relieve us of", "unload", "decommission", "retire", "im sick of looking at", "i am sick of looking at", "im tired of looking at", "i am tired of looking at", "im sick of seeing", "im tired of seeing", "i am tired of seeing", "were tired of looking at", "were sick of looking at",
         "i cant look at", "i can not look at", "i cannot look at", "i can no longer look at", "im fed up with", "i am fed up with", "were fed up with", "we are fed up with", "were sick of", "we are sick of", "were tired of", "we are tired of",
-        "turf out", "boot out", "bin off", "whisk away", "spirit away", "tidy away", "pack away", "kill off", "shoo away", "expel", "eject"], Verb::Remove),
+        "turf out", "boot out", "bin off", "whisk away", "spirit away", "whip away", "snatch away", "spirit off", "magic away", "tidy away", "pack away", "kill off", "shoo away", "expel", "eject"], Verb::Remove),
     (&["replace", "substitute"], Verb::Replace),
     (&["rotate", "turn", "spin", "swivel", "orient", "orientate", "face", "aim", "point", "twist", "flip", "revolve", "pivot", "gyrate", "yaw"], Verb::Turn),
     (CLOSING, Verb::Close),
@@ -431,6 +431,16 @@ pub(super) const SKY_NOISE: &Phrases = &Phrases::of(&["it", "its", "it is", "be"
     "then", "fall", "falling", "come", "coming", "down", "shall", "must", "shooting", "filming", "shoot", "thats",
     "show me", "show us", "show", "let me see", "id like to see", "i want to see", "keep", "stay", "stays", "keep it", "this", "wouldnt", "hurt", "love", "wish", "were", "if", "was", "story", "party", "takes place", "set in", "id love", "wed like",
     "could do with", "could use", "wed love", "mood", "picture", "be nice", "i feel like", "feel like", "i am in the mood for", "im in the mood for", "in the mood for", "time for", "fancy", "i fancy", "nothing beats", "go for", "lets go for", "already", "christmas", "sound", "please let", "wanna", "hope for", "switch to", "change to", "get me", "gets", "it gets", "getting", "turning", "going", "go", "goes", "grow", "nicely", "proper", "properly", "good", "old", "any chance of", "chance of", "were having", "we are having", "having", "as if", "everywhere", "here please", "bit more", "dreary", "grey", "spooky", "romantic", "cosy", "cozy", "slowly", "soon", "gradually", "quickly", "shortly", "finally", "for once", "in my story", "in the story", "for the story", "for my film", "for the film", "film", "movie", "scene to", "over the city", "over the town", "over the harbour", "over the campus", "spell of", "dose of", "splash of", "sprinkling of", "bout of", "be great", "lovely", "please make"]);
+
+/// The phrases of place.
+pub(super) fn ways() -> impl Iterator<Item = &'static str> {
+    WAY_ROWS.iter().flat_map(|(words, _)| *words).copied()
+}
+
+/// The phrases of orders.
+pub(super) fn verbs() -> impl Iterator<Item = &'static str> {
+    VERB_ROWS.iter().flat_map(|(words, _)| *words).copied()
+}
 
 /// Every single word here, so that none is taken for a misspelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
