@@ -344,7 +344,7 @@ pub(super) fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<L
         |word: &&str| words.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(own) if own == word));
     let may_fit = |part: &&str| {
         part.len() == 1 && !["a", "i"].contains(part)
-            || part.split('|').any(|word| word == "-" || is_said(&word))
+            || part.split('|').any(|word| matches!(word, "-" | "," | ".") || is_said(&word))
     };
     if !pattern.iter().all(may_fit) {
         return None;
