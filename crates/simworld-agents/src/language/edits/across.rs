@@ -69,6 +69,7 @@ impl Reader<'_> {
         within
             .into_iter()
             .chain(turned(self.lexemes, LATER))
+            .chain(self.with_directed(finder))
             .chain(sells)
             .chain(plain)
             .chain(without_do_so(self.lexemes))

@@ -42,7 +42,7 @@ pub(crate) fn read(
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
     let in_one_go = !heard[..last].iter().any(|lexeme| is_mark(lexeme) || chatter::begins_reason(lexeme));
     if !in_one_go && let Some(read) = ear.taken_up(&heard) {
-        return Ok(read);
+        return read;
     }
     let read = ear.read(heard.clone());
     if ear.is_granted(&read) {
@@ -265,11 +265,24 @@ impl Ear<'_> {
 }
 
 impl Ear<'_> {
-    /// The sentence as its parts take one another up, where it would be misread as it stands and is granted so.
-    fn taken_up(&self, heard: &[Lexeme]) -> Option<Reading> {
+    /// The sentence as its parts take one another up, where it would be misread as it stands and is granted so; or which of several is meant
+    /// must be asked.
+    fn taken_up(&self, heard: &[Lexeme]) -> Option<Result<Reading, EditError>> {
         let ways = self.across(heard, true);
         let granted = |read: &Result<Reading, EditError>| read.is_ok() && self.is_granted(read);
-        ways.into_iter().map(|way| self.read(way)).find(granted).and_then(Result::ok)
+        let found = ways.into_iter().map(|way| self.read(way)).find(granted);
+        found.or_else(|| self.undecided(heard).map(Err))
+    }
+
+    /// What is to be asked where one of several is meant and nothing decides which.
+    fn undecided(&self, heard: &[Lexeme]) -> Option<EditError> {
+        let Self { words, scene, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let (view, memo) = (view_of(scene, focus), Memo::default());
+        let reader =
+            Reader { words, lexemes: heard, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+        reader.undecided(&finder)
     }
 
     /// As [`Self::in_other_words`], by what one sentence asks for in the words of another.

@@ -6,6 +6,7 @@
 use simworld_core::geometry::{Vector2, direction};
 use simworld_core::id::EntityId;
 
+use super::super::clause::{Reference, Target};
 use super::super::compass::{Compass, DIRECTIONS};
 use super::super::lexer::{Lexeme, is_mark, word_of};
 use super::super::lexicon::{longest, longest_phrase};
@@ -18,6 +19,7 @@ use super::memo::Memo;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::words::{VERBS, Verb};
+use crate::editing::EditError;
 
 /// Before what is there.
 #[rustfmt::skip]
@@ -105,12 +107,14 @@ pub(super) struct Told {
 }
 
 /// Things that a noun names, in all.
-struct Called {
+pub(super) struct Called {
     /// How many there are said to be.
     count: Option<usize>,
-    things: Vec<EntityId>,
+    pub(super) things: Vec<EntityId>,
+    /// The last word for one of them.
     noun: String,
-    end: usize,
+    /// Where the noun ends.
+    pub(super) end: usize,
 }
 
 impl Reader<'_> {
@@ -243,8 +247,19 @@ impl Reader<'_> {
         })
     }
 
+    /// "Of the two birches, the taller one": which is asked, if they are as tall as each other.
+    pub(super) fn undecided(&self, finder: &Finder<'_>) -> Option<EditError> {
+        longest_phrase(self.lexemes, OF)?;
+        let Told { all, noun, from, .. } = self.told_of(finder)?;
+        let is_open = |at: usize| matches!(self.which_of(at, (&all[..], noun.as_str()), finder), Some((None, words)) if words > 0);
+        (from..self.lexemes.len()).any(is_open).then(|| {
+            let what = Reference::to(Target::Named(all.clone()), noun.clone());
+            finder.ambiguous(&what, &all)
+        })
+    }
+
     /// All that a noun names, with how many there are said to be and its colour before it.
-    fn all_called(&self, at: usize, finder: &Finder<'_>) -> Option<Called> {
+    pub(super) fn all_called(&self, at: usize, finder: &Finder<'_>) -> Option<Called> {
         let counted = numbers::count(self.lexemes.get(at..)?);
         let from = at + counted.map_or(0, |(_, words)| words);
         let paint = longest(self.lexemes.get(from..)?, PAINTS).map_or(0, |(_, words)| words);
