@@ -247,8 +247,6 @@ fn what_nothing_decides_is_no_edit() {
         // None of two is in the middle, and both are as tall as each other.
         ("harbour", "There are two red cars: paint the middle one black."),
         ("quarter", "Of the two birches, the taller one has to be felled."),
-        // There are three cars, of which two are red.
-        ("harbour", "There are four red cars: paint the western one black."),
         ("harbour", "Do you know a good joke?"),
     ] {
         assert!(edits_of(&City::read(city), words).is_err(), "{words}");

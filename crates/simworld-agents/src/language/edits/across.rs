@@ -167,6 +167,10 @@ impl Reader<'_> {
         let all = Reader { memo: &memo, ..self.over(&all) }.one_of(0, all.len()).ok()?;
         finder.all(&[all]).ok()?.contains(&seller).then_some(())?;
         let mut said = self.lexemes[comma + 1..].to_vec();
+        // What else is to be done otherwise is not to be done.
+        if (0..said.len()).any(|at| longest_phrase(&said[at..], OTHERWISE).is_some()) {
+            return None;
+        }
         if let Some(it) = said.iter().position(|lexeme| word_of(lexeme) == "it") {
             said[it] = those(&said[it], &[seller]);
         }
