@@ -214,3 +214,65 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
     let turns = [FIRST, LATER].into_iter().flatten().flat_map(|(said, _)| said.split([' ', '|']));
     phrases.chain(turns.filter(|word| word.len() > 1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::lexer::rewritten;
+    use super::*;
+
+    fn plain(said: &str, table: &Turns) -> String {
+        rewritten(said, |lexemes| {
+            if let Some(plain) = turned(lexemes, table) {
+                *lexemes = plain;
+            }
+        })
+    }
+
+    #[test]
+    fn turns_go_across_sentences() {
+        for (said, meant) in [
+            (
+                "move the van next to the registry. the yellow bicycle goes there as well.",
+                "move the van next to the registry , and move the yellow bicycle next to the registry",
+            ),
+            (
+                "paint both chairs white. the table gets the same colour.",
+                "paint both chairs white , and paint the table white",
+            ),
+            ("the eastern half of mill lane is closed. open it again.", "open the eastern half of mill lane"),
+            ("look at the library. its door should be green.", "the door of the library should be green"),
+            (
+                "the paper moon has no cash machine. give it one, right beside the building.",
+                "put a cash machine beside the paper moon",
+            ),
+            ("put a bench by carol. put a bin there too", "put a bench by carol , put a bin there too"),
+        ] {
+            assert_eq!(plain(said, FIRST), meant, "{said}");
+        }
+    }
+
+    #[test]
+    fn what_is_refused_is_told_plainly() {
+        for (said, meant) in [
+            (
+                "any chair that is not white yet should become white",
+                "paint every chair that is not white white",
+            ),
+            (
+                "begin with the southernmost street lamp and paint every other one orange",
+                "paint every second street lamp orange , starting with the southernmost one",
+            ),
+            (
+                "leave a gap of two metres between the hydrant and a new bucket",
+                "put a bucket two metres from the hydrant",
+            ),
+            (
+                "copy the red bench two times and put both copies near the hall",
+                "make two copies of the red bench near the hall",
+            ),
+            ("any chair should become white", "any chair should become white"),
+        ] {
+            assert_eq!(plain(said, LATER), meant, "{said}");
+        }
+    }
+}

@@ -42,9 +42,9 @@ pub(super) const LATER: &Turns = &[
     ("i|we know|see|have a|an A here|somewhere|around|- that|which sells|sell|offers|stocks B . P it Q", "P the A that sells B Q"),
     // Colours of another, and those that are not so yet.
     ("O give|lend A the|a|- same colour|color|shade|paint as|like|that B", "O paint A the same colour as B"),
-    ("any|every|each A that|which|who is|was not K yet|already|now|so|far|- far|- should|must|shall|ought|has|needs to|- be|become|turn|go|get painted|coloured|- B", "paint every A except the K ones B"),
-    ("any|every|each A that|which|who isnt|wasnt K yet|already|now|so|far|- far|- should|must|shall|ought|has|needs to|- be|become|turn|go|get painted|coloured|- B", "paint every A except the K ones B"),
-    ("all|the all|- A that|which|who are|were not K yet|already|now|so|far|- far|- should|must|shall|ought|have|need to|- be|become|turn|go|get painted|coloured|- B", "paint all A except the K ones B"),
+    ("any|every|each A that|which|who is|was not K yet|already|now|so|far|- far|- should|must|shall|ought|has|needs to|- be|become|turn|go|get painted|coloured|- B", "paint every A that is not K B"),
+    ("any|every|each A that|which|who isnt|wasnt K yet|already|now|so|far|- far|- should|must|shall|ought|has|needs to|- be|become|turn|go|get painted|coloured|- B", "paint every A that is not K B"),
+    ("all|the all|- A that|which|who are|were not K yet|already|now|so|far|- far|- should|must|shall|ought|have|need to|- be|become|turn|go|get painted|coloured|- B", "paint all A that are not K B"),
     // Several wishes under one heading.
     ("D wishes|requests|orders|ideas|tasks|jobs|changes|things for|about|from|concerning the|- A . P", "P"),
     ("D wishes|requests|orders|ideas|tasks|jobs|changes|things . P", "P"),
