@@ -16,10 +16,10 @@ use super::wish::Wish;
 use super::words::{WAYS, Way};
 use super::{
     Focus, Reading, anew, beforehand, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing,
-    gone_by_name, gone_once, headings, hesitations, homophones, lastly, made_once, margins, meant, narrowed,
-    nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, precautions, presence,
-    remarked, repairs, respelt, retold, rows, sells_both, shades, sky_stated, slips, spared, spoken,
-    statements, talk, view_of, which, whole, withdrawn, wording,
+    forms, gone_by_name, gone_once, headings, hesitations, homophones, lastly, made_once, margins, meant,
+    narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, precautions,
+    presence, remarked, repairs, respelt, retold, rows, sells_both, shades, sky_stated, slips, spared,
+    spoken, statements, talk, view_of, which, whole, withdrawn, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -39,16 +39,25 @@ pub(crate) fn read(
     let tells_place = statements::tells_place(&heard);
     let ear = Ear { words, scene, stock, focus, begins_with_place, tells_place };
     shades::in_plain_words(words, &mut heard);
-    let read = ear.read(heard.clone());
-    // What is said in one go has nothing that could be left out.
+    // What is said in one go has nothing that could be left out, nor that takes up anything said before.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
     let in_one_go = !heard[..last].iter().any(|lexeme| is_mark(lexeme) || chatter::begins_reason(lexeme));
+    if !in_one_go && let Some(read) = ear.taken_up(&heard) {
+        return read;
+    }
+    let read = ear.read(heard.clone());
     if ear.is_granted(&read) {
         return read;
     }
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
-    let stages =
-        [Ear::in_other_words, Ear::placed, Ear::told_anew, Ear::without_statements, Ear::with_what_is_named];
+    let stages = [
+        Ear::across_sentences,
+        Ear::in_other_words,
+        Ear::placed,
+        Ear::told_anew,
+        Ear::without_statements,
+        Ear::with_what_is_named,
+    ];
     let read = stages
         .into_iter()
         .fold(read, |read, stage| if ear.is_granted(&read) { read } else { stage(&ear, &heard, read) });
@@ -269,6 +278,57 @@ impl Ear<'_> {
             Some(asked) if !self.is_granted(&read) => asked,
             _ => read,
         }
+    }
+}
+
+impl Ear<'_> {
+    /// The sentence as its parts take one another up, where it would be misread as it stands and is granted so; or which of several is meant
+    /// must be asked.
+    fn taken_up(&self, heard: &[Lexeme]) -> Option<Result<Reading, EditError>> {
+        let ways = self.across(heard, true);
+        let granted = |read: &Result<Reading, EditError>| read.is_ok() && self.is_granted(read);
+        let found = ways.into_iter().map(|way| self.read(way)).find(granted);
+        found.or_else(|| self.undecided(heard).map(Err))
+    }
+
+    /// What is to be asked where one of several is meant and nothing decides which.
+    fn undecided(&self, heard: &[Lexeme]) -> Option<EditError> {
+        let Self { words, scene, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let (view, memo) = (view_of(scene, focus), Memo::default());
+        let reader =
+            Reader { words, lexemes: heard, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+        reader.undecided(&finder)
+    }
+
+    /// As [`Self::in_other_words`], by what one sentence asks for in the words of another.
+    fn across_sentences(
+        &self,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        self.first_granted(self.across(heard, false), read)
+    }
+
+    /// Ways in which the parts of a sentence take one another up, as it was heard and as it is spelt; those that would be misread or the others.
+    fn across(&self, heard: &[Lexeme], misread: bool) -> Vec<Vec<Lexeme>> {
+        let Self { words, scene, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
+        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
+        let (view, memo) = (view_of(scene, focus), Memo::default());
+        let reader =
+            Reader { words, lexemes: &spelt, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+        let ways = |reader: &Reader<'_>| {
+            if misread { reader.across_first(&finder) } else { reader.across_later(&finder) }
+        };
+        let mut told = ways(&reader);
+        // A word that these turns alone know may have been taken for a slip.
+        if !forms::is_same(&spelt, heard) {
+            told.extend(ways(&Reader { lexemes: heard, ..reader }));
+        }
+        told
     }
 }
 

@@ -3,6 +3,8 @@
 //! The same words, names and noun phrases as in orders to a body; other verbs. A sentence is read whole first; each wish is
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
+mod across;
+mod across_turns;
 mod afterthoughts;
 mod anew;
 mod answers;
@@ -26,6 +28,7 @@ mod clock;
 mod compared;
 mod complaints;
 mod conditions;
+mod directed;
 mod doings;
 mod doubted;
 mod dressed;
@@ -62,6 +65,7 @@ mod nearer;
 mod nicknames;
 mod noun;
 mod nth;
+mod occasions;
 mod offsets;
 mod ordered;
 mod orders;
@@ -74,6 +78,7 @@ mod passage;
 mod passing;
 mod periphrases;
 mod phrased;
+mod picked;
 mod placed;
 mod places;
 mod plain;
@@ -98,6 +103,7 @@ mod sayings;
 mod says;
 mod sells_both;
 mod set_scenes;
+mod sets_told;
 mod settle;
 mod several_nearest;
 mod shades;
@@ -117,6 +123,7 @@ mod statements;
 mod stood;
 mod strangers;
 mod supposed;
+mod taken_up;
 mod talk;
 mod texts;
 mod things;
@@ -418,6 +425,10 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(periphrases::words())
         .chain(clock::words())
         .chain(nicknames::words())
+        .chain(across::words())
+        .chain(sets_told::words())
+        .chain(taken_up::words())
+        .chain(picked::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -101,7 +101,7 @@ impl Reader<'_> {
     }
 
     /// Whether a thing may end here: with a mark, a joint, a place, a colour, or a small word behind a subject.
-    fn ends_thing_at(&self, at: usize) -> bool {
+    pub(super) fn ends_thing_at(&self, at: usize) -> bool {
         let Some(next) = self.lexemes.get(at) else { return true };
         is_mark(next)
             || self.is_joint(at)

@@ -17,41 +17,9 @@ use super::sayings::SAYINGS;
 use super::turns::{ASIDES, BEFORE_ALL, FILLERS, TURNS};
 use super::words::{VERBS, Way};
 
-/// "We're having a party: ...": an occasion is nothing that is to be put anywhere.
-fn without_occasion(lexemes: &mut Vec<Lexeme>) {
-    const HAVING: &Phrases = &Phrases::of(&[
-        "were having a",
-        "we are throwing a",
-        "we are planning a",
-        "i am throwing a",
-        "i am planning a",
-        "they are having a",
-        "they are throwing a",
-        "we are having a",
-        "im having a",
-        "i am having a",
-        "theyre having a",
-        "were throwing a",
-        "im throwing a",
-        "weve got a",
-        "were having our",
-        "were planning a",
-        "im planning a",
-        "were celebrating a",
-    ]);
-    let Some(mark) = lexemes.iter().position(is_mark).filter(|mark| mark + 1 < lexemes.len()) else { return };
-    let is_plain = mark <= 9
-        && longest_phrase(lexemes, HAVING).is_some()
-        && !(0..mark)
-            .any(|at| longest(&lexemes[at..], &super::words::WAYS).is_some_and(|(_, words)| words > 1));
-    if is_plain {
-        lexemes.drain(..=mark);
-    }
-}
-
 /// Puts what would be misunderstood plainly, and leaves out what is said by the way.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
-    without_occasion(lexemes);
+    super::occasions::leave_out(lexemes);
     let asides = without(lexemes, ASIDES);
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
@@ -344,7 +312,7 @@ pub(super) fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<L
         |word: &&str| words.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(own) if own == word));
     let may_fit = |part: &&str| {
         part.len() == 1 && !["a", "i"].contains(part)
-            || part.split('|').any(|word| word == "-" || is_said(&word))
+            || part.split('|').any(|word| matches!(word, "-" | "," | ".") || is_said(&word))
     };
     if !pattern.iter().all(may_fit) {
         return None;

@@ -10,6 +10,11 @@ const VERBS: &Phrases =
 /// Before such an order.
 #[rustfmt::skip]
 const LEADS: &Phrases = &Phrases::of(&["please", "can you", "could you", "would you", "will you", "can you please", "could you please", "kindly", "now", "and", "i want you to", "i need you to", "help me", "help me to", "lets", "hey", "hi", "hello", "ok", "okay", "just", "quickly"]);
+/// Before what somebody is to tell.
+#[rustfmt::skip]
+const ASKS: &Phrases = &Phrases::of(&["do you know a", "do you know any", "do you know some", "know a", "know any", "tell me a", "tell us a", "tell me another", "tell a", "have you got a", "got a", "have you heard a", "do you have a", "tell me some"]);
+const JOKES: &[&str] =
+    &["joke", "jokes", "riddle", "riddles", "pun", "puns", "limerick", "anecdote", "anecdotes"];
 /// Words, in pieces of all lengths.
 #[rustfmt::skip]
 const TEXTS: &[&str] = &["paragraph", "paragraphs", "sentence", "sentences", "text", "texts", "letter", "letters", "email", "emails", "mail", "message", "messages", "poem", "poems", "word", "words", "page", "pages", "chapter", "article", "essay", "speech", "phrase", "phrases", "paper", "report", "document", "documents", "lyrics", "song", "recipe", "manual", "note", "notes", "quote", "story", "novel"];
@@ -31,6 +36,9 @@ impl Reader<'_> {
             let Some(words) = longest_phrase(rest, LEADS).or(is_mark.then_some(1)) else { break };
             at += words;
         }
+        if self.asks_for_a_joke(at) {
+            return true;
+        }
         let Some(words) = self.lexemes.get(at..).and_then(|rest| longest_phrase(rest, VERBS)) else {
             return false;
         };
@@ -42,6 +50,16 @@ impl Reader<'_> {
             && !(from..self.lexemes.len()).any(|at| {
                 super::super::numbers::length(&self.lexemes[at..]).is_some_and(|(_, words)| words > 1)
             })
+    }
+
+    /// "Do you know a good joke?"
+    fn asks_for_a_joke(&self, at: usize) -> bool {
+        let asked = longest_phrase(self.lexemes.get(at..).unwrap_or_default(), ASKS);
+        asked.is_some_and(|words| {
+            let from = at + words;
+            (from..from + FARTHEST).any(|at| self.word(at).is_some_and(|word| JOKES.contains(&word)))
+                && (from..self.lexemes.len()).all(|at| !self.is_place(at))
+        })
     }
 }
 
