@@ -18,7 +18,7 @@ use super::{
     Focus, Reading, anew, beforehand, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing,
     gone_by_name, gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others,
     paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt,
-    retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole,
+    retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, talked, view_of, which, whole,
     withdrawn, wording,
 };
 use crate::editing::{EditError, Stock};
@@ -46,8 +46,14 @@ pub(crate) fn read(
         return read;
     }
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
-    let stages =
-        [Ear::in_other_words, Ear::placed, Ear::told_anew, Ear::without_statements, Ear::with_what_is_named];
+    let stages = [
+        Ear::in_other_words,
+        Ear::placed,
+        Ear::told_anew,
+        Ear::without_statements,
+        Ear::talked,
+        Ear::with_what_is_named,
+    ];
     stages.into_iter().fold(
         read,
         |read, stage| {
@@ -256,6 +262,23 @@ impl Ear<'_> {
 }
 
 impl Ear<'_> {
+    /// The sentence as people talk, in any of the other ways.
+    fn talked(&self, heard: &[Lexeme], mut read: Result<Reading, EditError>) -> Result<Reading, EditError> {
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
+        for way in talked::ways(words, heard, &spelt, &names) {
+            read = self.first_granted(vec![way.clone()], read);
+            for stage in [Self::in_other_words, Self::placed, Self::told_anew] {
+                if self.is_granted(&read) {
+                    return read;
+                }
+                read = stage(self, &way, read);
+            }
+        }
+        read
+    }
+
     /// "The windmill looks shabby, paint it white": that there is no windmill, where nothing is there that "it" could stand for.
     fn with_what_is_named(
         &self,
@@ -295,6 +318,7 @@ fn put_plainly(
     names: &Names<'_>,
     (stock, streets): (&Stock, &StreetNames),
 ) {
+    talked::in_plain_words(lexemes);
     beforehand::leave_out(words, lexemes, names);
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);

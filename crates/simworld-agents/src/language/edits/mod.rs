@@ -26,6 +26,8 @@ mod clock;
 mod compared;
 mod complaints;
 mod conditions;
+mod denied;
+mod distance;
 mod doings;
 mod doubted;
 mod dressed;
@@ -59,6 +61,7 @@ mod nearer;
 mod noun;
 mod nth;
 mod offsets;
+mod openings;
 mod ordered;
 mod orders;
 mod originals;
@@ -79,6 +82,7 @@ mod predicates;
 mod presence;
 mod questions;
 mod ratios;
+mod reconsidered;
 mod remaining;
 mod remarked;
 mod remarks;
@@ -112,6 +116,8 @@ mod stood;
 mod strangers;
 mod supposed;
 mod talk;
+mod talk_turns;
+mod talked;
 mod texts;
 mod things;
 mod told;
@@ -411,6 +417,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(texts::words())
         .chain(periphrases::words())
         .chain(clock::words())
+        .chain(distance::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.
