@@ -175,8 +175,3 @@ impl Finder<'_> {
         }
     }
 }
-
-/// Every word of these tables, for the spelling.
-pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    [ASKS, STANDS, FROM, APART, TAILS].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
-}

@@ -267,14 +267,15 @@ impl Ear<'_> {
         let Self { words, stock, focus, .. } = *self;
         let names = self.names(heard);
         let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
-        for way in talked::ways(words, heard, &spelt, &names) {
-            read = self.first_granted(vec![way.clone()], read);
-            for stage in [Self::in_other_words, Self::placed, Self::told_anew] {
-                if self.is_granted(&read) {
-                    return read;
-                }
-                read = stage(self, &way, read);
+        let ways = talked::ways(words, heard, &spelt, &names);
+        let plainest = ways.last().cloned();
+        read = self.first_granted(ways, read);
+        let Some(plainest) = plainest else { return read };
+        for stage in [Self::in_other_words, Self::placed, Self::told_anew] {
+            if self.is_granted(&read) {
+                return read;
             }
+            read = stage(self, &plainest, read);
         }
         read
     }

@@ -417,7 +417,6 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(texts::words())
         .chain(periphrases::words())
         .chain(clock::words())
-        .chain(distance::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

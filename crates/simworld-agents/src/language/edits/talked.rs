@@ -52,7 +52,8 @@ pub(super) fn ways(words: &str, heard: &[Lexeme], spelt: &[Lexeme], names: &Name
         let told = told_by(&right, &[TALK]);
         let told_whole = told_by(&said, &[TALK]);
         for way in [told_whole, said, open, plain, right, told] {
-            let is_known = is_same(&way, heard) || ways.iter().any(|other| is_same(&way, other));
+            let is_known = [heard, spelt].into_iter().any(|said| is_same(&way, said))
+                || ways.iter().any(|other| is_same(&way, other));
             if !is_known && way.iter().any(|lexeme| !is_mark(lexeme)) {
                 ways.push(way);
             }
