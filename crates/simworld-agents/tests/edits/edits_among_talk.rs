@@ -210,6 +210,7 @@ fn distances_are_answered() {
             ("What is the distance between the oak and the pine?", ""),
             ("How far apart are Anna and Ben?", ""),
             ("How far is the hydrant from the cone?", ""),
+            ("How far is the mailbox?", "describe mailbox"),
             ("How far is it from the oak to the lighthouse?", "! not found"),
         ],
     );

@@ -19,7 +19,7 @@ const NEED_NOT: &Phrases = &Phrases::of(&["i dont need", "we dont need", "i do n
 const MORE: &Phrases = &Phrases::of(&["another", "yet another", "any more", "more", "any other", "one more", "an extra", "any extra", "even more", "still more", "a further", "any further", "a second", "a third"]);
 /// By these the rest may speak of what was denied.
 #[rustfmt::skip]
-const OPEN: &[&str] = &["it", "its", "them", "they", "their", "one", "ones", "there", "that", "those", "these", "this", "instead", "either", "too", "same"];
+pub(super) const OPEN: &[&str] = &["it", "its", "them", "they", "their", "one", "ones", "there", "that", "those", "these", "this", "instead", "either", "too", "same"];
 /// What was copied.
 #[rustfmt::skip]
 const ORIGINALS: &Phrases = &Phrases::of(&["the old one", "the old ones", "the original", "the originals", "the original one", "the first one", "the first", "the existing one", "the one we have", "the one that is there", "the one that is there now", "the old"]);

@@ -22,6 +22,8 @@ const ASKS: &Phrases = &Phrases::of(&["how far is it", "how far away is it", "ho
 /// Before a thing, behind which stands from what it is so far.
 #[rustfmt::skip]
 const STANDS: &Phrases = &Phrases::of(&["how far is", "how far are", "how far away is", "how far away are", "how far off is", "how far does", "how close is", "how close are", "how near is", "how near are", "how many metres is", "how many meters is", "how many metres away is", "how many meters away is", "how distant is", "how far apart are", "how far apart is", "how far away from each other are", "how far from each other are", "how close together are"]);
+/// Before a thing alone, which is so far from who speaks.
+const FAR: &Phrases = &Phrases::of(&["how far is", "how far away is", "how far off is", "how distant is"]);
 /// Between a thing and from what it is so far.
 #[rustfmt::skip]
 const FROM: &Phrases = &Phrases::of(&["from", "away from", "off from", "to", "distant from", "far from", "stand from", "stand away from", "lie from", "removed from"]);
@@ -45,10 +47,15 @@ impl Reader<'_> {
         let words = &self.lexemes[start..end];
         let way = longest_phrase(words, ASKS).map_or(Ok(None), |asks| self.way_asked(start + asks, end))?;
         let stand = || {
-            let words = longest_phrase(words, STANDS)?;
-            self.stand_asked(start + words, end)
+            let stands = longest_phrase(words, STANDS)?;
+            self.stand_asked(start + stands, end)
         };
-        let asked = way.or_else(stand);
+        let alone = || {
+            let from = start + longest_phrase(words, FAR)?;
+            let what = self.place_asked(from, end).ok().filter(|_| self.is_certain(from))?;
+            Some((what, me()))
+        };
+        let asked = way.or_else(stand).or_else(alone);
         Ok(asked.map(|(one, other)| Wish::AskDistance { one, other }))
     }
 

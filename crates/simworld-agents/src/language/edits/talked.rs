@@ -4,7 +4,7 @@
 //! What would be misunderstood is told plainly before it is read. All else is tried only where a sentence was refused, and counts only if what is left is
 //! granted; so nothing that is understood is read otherwise.
 
-use super::super::lexer::{Lexeme, Token, is_mark};
+use super::super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::super::lexicon::longest_phrase;
 use super::super::names::Names;
 use super::super::numbers;
@@ -34,8 +34,13 @@ const OVERFULL: &Phrases =
 const GOES: &Phrases = &Phrases::of(&["can go", "may go", "must go", "should go", "has to go", "needs to go", "ought to go", "can go too", "may go too", "must go too", "should go too", "has to go too", "can go as well", "may go as well", "must go as well", "can go now", "may go now", "must go now", "can also go", "may also go", "must also go"]);
 const JOINTS: &[&str] = &["and", "then", "also"];
 
+/// How something is, at the end of an exclamation.
+#[rustfmt::skip]
+const IT_IS: &Phrases = &Phrases::of(&["this is", "that is", "it is", "that was", "this was", "it was", "we have", "we have today", "we are having", "we are having today", "weve had", "we had", "it has been", "its been", "this has been", "it is today", "this is today", "today", "it turned out to be", "this turned out to be"]);
+
 /// Puts what would be misunderstood plainly.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    without_exclamation(lexemes);
     denied::leave_out(lexemes);
     gone_in_turn(lexemes);
     *lexemes = told_by(lexemes, &[TALK_FIRST]);
@@ -60,6 +65,20 @@ pub(super) fn ways(words: &str, heard: &[Lexeme], spelt: &[Lexeme], names: &Name
         }
     }
     ways
+}
+
+/// "What a lovely morning this is! Put ...": an exclamation before something else that does not speak of it.
+fn without_exclamation(lexemes: &mut Vec<Lexeme>) {
+    let lead = usize::from(["oh", "ah", "well", "my"].contains(&word(lexemes, 0)));
+    let Some(end) = lexemes.iter().position(|lexeme| lexeme.token == Token::Break) else { return };
+    let (said, rest) = (lexemes.get(lead..end).unwrap_or_default(), &lexemes[end + 1..]);
+    let exclaims = longest_phrase(said, &["what a", "what an"]).is_some()
+        && !said.iter().any(is_mark)
+        && (3..said.len()).any(|at| longest_phrase(&said[at..], IT_IS) == Some(said.len() - at));
+    let is_open = rest.iter().any(|lexeme| denied::OPEN.contains(&word_of(lexeme)));
+    if exclaims && !is_open && rest.iter().any(|lexeme| !is_mark(lexeme)) {
+        lexemes.drain(..=end);
+    }
 }
 
 /// "The bin can go, the sign can go, and Fido ...": what goes one after the other.
@@ -159,7 +178,10 @@ mod tests {
                 "the bin can go, the sign can go, and fido should be moved next to hana",
                 "remove the bin , remove the sign , and fido should be moved next to hana",
             ),
+            ("what a lovely morning this is! put a bench west of carol", "put a bench west of carol"),
             // These say something.
+            ("what a fine bench that is! paint it red", "what a fine bench that is , paint it red"),
+            ("what a lovely morning this is", "what a lovely morning this is"),
             ("we dont need another bench, remove it", "we dont need another bench , remove it"),
             ("we dont need the bench, add a lamp", "we dont need the bench , add a lamp"),
             ("remove the cars, the old one may stay", "remove the cars , the old one may stay"),
