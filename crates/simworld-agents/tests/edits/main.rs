@@ -4,6 +4,7 @@
 #[path = "../sentences/sentences_common/city.rs"]
 #[allow(dead_code, reason = "sentences use all of it")]
 mod city;
+mod edits_among_talk;
 mod edits_are_ask;
 mod edits_are_chatted;
 mod edits_are_composed;

@@ -66,6 +66,9 @@ impl Reader<'_> {
         if let Some(wish) = self.asks_passage(start, end).or_else(|| self.left_alone(start, end)) {
             return Ok(Some(wish));
         }
+        if let Some(wish) = self.asks_distance(start, end)? {
+            return Ok(Some(wish));
+        }
         if let Some(wish) = self.asks_how(start, end) {
             return Ok(Some(wish));
         }

@@ -19,7 +19,7 @@ use super::{
     forms, gone_by_name, gone_once, headings, hesitations, homophones, lastly, made_once, margins, meant,
     narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, precautions,
     presence, remarked, repairs, respelt, retold, rows, sells_both, shades, sky_stated, slips, spared,
-    spoken, statements, talk, view_of, which, whole, withdrawn, wording,
+    spoken, statements, talk, talked, view_of, which, whole, withdrawn, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -56,6 +56,7 @@ pub(crate) fn read(
         Ear::placed,
         Ear::told_anew,
         Ear::without_statements,
+        Ear::talked,
         Ear::with_what_is_named,
     ];
     let read = stages
@@ -333,6 +334,24 @@ impl Ear<'_> {
 }
 
 impl Ear<'_> {
+    /// The sentence as people talk, in any of the other ways.
+    fn talked(&self, heard: &[Lexeme], mut read: Result<Reading, EditError>) -> Result<Reading, EditError> {
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
+        let ways = talked::ways(words, heard, &spelt, &names);
+        let plainest = ways.last().cloned();
+        read = self.first_granted(ways, read);
+        let Some(plainest) = plainest else { return read };
+        for stage in [Self::in_other_words, Self::placed, Self::told_anew] {
+            if self.is_granted(&read) {
+                return read;
+            }
+            read = stage(self, &plainest, read);
+        }
+        read
+    }
+
     /// "The windmill looks shabby, paint it white": that there is no windmill, where nothing is there that "it" could stand for.
     fn with_what_is_named(
         &self,
@@ -374,6 +393,7 @@ fn put_plainly(
 ) {
     precautions::leave_out(lexemes);
     sky_stated::in_plain_words(lexemes);
+    talked::in_plain_words(lexemes);
     beforehand::leave_out(words, lexemes, names);
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);

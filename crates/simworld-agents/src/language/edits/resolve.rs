@@ -74,6 +74,7 @@ impl Finder<'_> {
             Wish::PaintLike { what, like } => self.painted_like(what, like)?,
             Wish::AskPassage { which } => self.passages_told(which)?,
             Wish::AskSky => self.sky_told(),
+            Wish::AskDistance { one, other } => self.distance_told(one, other)?,
             Wish::When { sky, so, then } => return self.when(sky, *so, then),
             Wish::WhenPassage { which, closed, then } => return self.when_passage(which, *closed, then),
             Wish::WhenLarger { one, other, extent, larger, then } => {

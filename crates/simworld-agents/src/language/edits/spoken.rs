@@ -4,6 +4,7 @@ use simworld_core::id::{EntityId, RoadId};
 use simworld_core::net::polyline;
 
 use super::super::clause::{Choice, Count, Reference, Stands, Target};
+use super::super::compass::{DIRECTIONS, MOST};
 use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{Category, category, longest, longest_phrase};
 use super::super::phrases::Phrases;
@@ -248,12 +249,31 @@ pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
         let mut named = (0..at).filter_map(|from| Some((from, streets.at(&lexemes[from..at])?.words)));
         let street = named.next().filter(|_| is_whole)?;
         let is_only = named.all(|(from, _)| from < street.0 + street.1);
-        is_only.then_some((at + verb, end, street))
+        let begin = half_before(lexemes, street.0);
+        is_only.then_some((at + verb, end, (begin, street.1 + street.0 - begin)))
     });
     if let Some((from, end, (street, words))) = found {
         let name = lexemes[street..street + words].to_vec();
         lexemes.splice(from..end, name);
     }
+}
+
+/// Where "the western half of" begins before a street; the street itself, where nothing of the kind stands there.
+fn half_before(lexemes: &[Lexeme], street: usize) -> usize {
+    /// So many words it takes at most.
+    const LONGEST: usize = 6;
+    #[rustfmt::skip]
+    const PARTS: &Phrases = &Phrases::of(&["half of", "part of", "end of", "bit of", "section of", "stretch of", "piece of", "side of", "portion of", "half of the", "part of the", "end of the"]);
+    let is_half = |from: &usize| {
+        let said = &lexemes[*from..street];
+        let the = longest_phrase(said, &["the"]).unwrap_or(0);
+        let rest = &said[the..];
+        let compass = longest(rest, MOST).or_else(|| longest(rest, DIRECTIONS));
+        compass.is_some_and(|(_, words)| {
+            the > 0 && longest_phrase(&rest[words..], PARTS) == Some(rest.len() - words)
+        })
+    };
+    (street.saturating_sub(LONGEST)..street).find(is_half).unwrap_or(street)
 }
 
 impl Reader<'_> {

@@ -197,7 +197,7 @@ pub(super) fn with_what_was_left(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
 }
 
 /// The parts between marks and brackets.
-fn clauses(lexemes: &[Lexeme]) -> Vec<Clause> {
+pub(super) fn clauses(lexemes: &[Lexeme]) -> Vec<Clause> {
     let mut clauses = Vec::new();
     let mut from = 0;
     let ends = |lexeme: &Lexeme| is_mark(lexeme) || matches!(lexeme.token, Token::Open | Token::Close);
@@ -225,7 +225,7 @@ pub(super) fn tells_place(lexemes: &[Lexeme]) -> bool {
 }
 
 /// The rest of a sentence. Of the marks around what is left out one stays, and none where the sentence goes on with a place.
-fn rest_of(lexemes: &[Lexeme], out: &[Clause]) -> Vec<Lexeme> {
+pub(super) fn rest_of(lexemes: &[Lexeme], out: &[Clause]) -> Vec<Lexeme> {
     let mut kept = vec![true; lexemes.len()];
     for clause in out {
         kept[clause.from..clause.end].fill(false);

@@ -23,7 +23,8 @@ const HOW: &[&str] =
 #[rustfmt::skip]
 const LIKES: &[&str] = &["love", "loves", "like", "likes", "enjoy", "enjoys", "hate", "hates", "adore", "adores", "loved", "liked", "enjoyed", "hated"];
 /// That something is so.
-const FRAMES: &[&str] = &["it", "its", "is", "thats", "that", "this", "such", "quite", "what", "todays"];
+const FRAMES: &[&str] =
+    &["it", "its", "is", "isnt", "aint", "thats", "that", "this", "such", "quite", "what", "todays"];
 const ARTICLES: &[&str] = &["a", "an", "the"];
 /// What is said of a day in passing. "Good evening" is a greeting, and known elsewhere.
 #[rustfmt::skip]
@@ -32,7 +33,7 @@ const PRAISE: &[&str] = &["lovely", "nice", "beautiful", "wonderful", "gorgeous"
 const TIMES: &[&str] = &["day", "morning", "afternoon", "evening", "night", "weather", "sunshine", "summer", "winter", "spring", "autumn", "sunset", "sunrise"];
 /// Behind it.
 #[rustfmt::skip]
-const TAILS: &[&str] = &["today", "tonight", "here", "outside", "out", "again", "isnt", "is", "it", "not", "innit", "we", "are", "were", "having", "everybody", "everyone", "folks", "so", "far", "there", "indeed", "for", "the", "time", "of", "year"];
+const TAILS: &[&str] = &["today", "tonight", "here", "outside", "out", "again", "isnt", "is", "it", "not", "innit", "we", "are", "were", "having", "everybody", "everyone", "folks", "so", "far", "there", "indeed", "for", "the", "time", "of", "year", "this", "that", "has", "been", "being", "turned", "to", "be", "truly", "really"];
 
 impl Reader<'_> {
     /// Whether the clause in which some words stand only tells what the sky was or is like.

@@ -122,6 +122,11 @@ pub(super) enum Wish {
     },
     /// Asks what time it is, and what the weather is like.
     AskSky,
+    /// Asks how far one thing is from another.
+    AskDistance {
+        one: Reference,
+        other: Reference,
+    },
     /// Only if the sky is so or, with `false`, if it is not.
     When {
         sky: Vec<Sky>,
