@@ -10,7 +10,7 @@ use super::super::streets::StreetNames;
 use super::super::{LONGEST_SENTENCE, RANGE, hearing};
 use super::attempts::{is_known, is_nowhere, wishes_of};
 use super::memo::Memo;
-use super::parse::Reader;
+use super::parse::{Reader, UNDERSTOOD};
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::words::{WAYS, Way};
@@ -18,8 +18,8 @@ use super::{
     Focus, Reading, anew, beforehand, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing,
     gone_by_name, gone_once, headings, hesitations, lastly, made_once, margins, meant, narrowed, nth, others,
     paint_at_once, passing, periphrases, phrased, placed, plain, presence, remarked, repairs, respelt,
-    retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, view_of, which, whole,
-    withdrawn, wording,
+    retold, rows, sells_both, shades, slips, spared, spoken, statements, talk, texts, unusual, unusual_first,
+    view_of, which, whole, withdrawn, wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -38,6 +38,10 @@ pub(crate) fn read(
     let begins_with_place = longest(&heard, &WAYS).is_some_and(|(way, _)| matches!(way, Way::To(_)));
     let ear = Ear { words, scene, stock, focus, begins_with_place };
     shades::in_plain_words(words, &mut heard);
+    if texts::asks_for_words(&heard) {
+        let hint = UNDERSTOOD.to_owned();
+        return Err(EditError::NotUnderstood { words: shortened(words), fragment: shortened(words), hint });
+    }
     let read = ear.read(heard.clone());
     // What is said in one go has nothing that could be left out.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
@@ -46,8 +50,14 @@ pub(crate) fn read(
         return read;
     }
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
-    let stages =
-        [Ear::in_other_words, Ear::placed, Ear::told_anew, Ear::without_statements, Ear::with_what_is_named];
+    let stages = [
+        Ear::in_other_words,
+        Ear::placed,
+        Ear::told_anew,
+        Ear::told_unusually,
+        Ear::without_statements,
+        Ear::with_what_is_named,
+    ];
     stages.into_iter().fold(
         read,
         |read, stage| {
@@ -197,6 +207,17 @@ impl Ear<'_> {
         self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
     }
 
+    /// As [`Self::in_other_words`], by turns that few use, conditions on doors, and what is said again by a part of it.
+    fn told_unusually(
+        &self,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        self.first_granted(unusual::ways(words, heard, &names, stock, focus), read)
+    }
+
     /// The first of some ways to say a sentence that is granted; or else what is wrong with it.
     fn first_granted(
         &self,
@@ -296,6 +317,7 @@ fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     beforehand::leave_out(words, lexemes, names);
+    unusual_first::in_plain_words(words, lexemes);
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);
     meant::in_plain_words(lexemes);
