@@ -21,6 +21,7 @@ mod edits_carry_their_loads;
 mod edits_common;
 mod edits_keep_land_use;
 mod edits_let_things_fall;
+mod edits_of_rare_forms;
 #[path = "../shared/model_server/mod.rs"]
 mod model_server;
 mod models_edit_scenes;

@@ -4,6 +4,7 @@
 //! Each says the same in every sentence. Where the plainer words would speak of something by a pronoun that was named in those left out, nothing is
 //! changed.
 
+use super::super::compass::DIRECTIONS;
 use super::super::lexer::{Lexeme, Token, is_mark, word_of};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
@@ -66,6 +67,7 @@ const POINTS_BACK: &[&str] = &["it", "its", "him", "her", "them", "there", "they
 /// Puts them plainly.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     misspelt(lexemes);
+    that_is_beyond(lexemes);
     without_own_day(words, lexemes);
     once_there(lexemes);
     where_it_was(lexemes);
@@ -97,6 +99,19 @@ fn misspelt(lexemes: &mut [Lexeme]) {
             _ => continue,
         };
         lexemes[at] = word_at(&lexemes[at].clone(), plain);
+    }
+}
+
+/// "The cottage that's east of Ivy Cottage" is the one that is east of it.
+fn that_is_beyond(lexemes: &mut Vec<Lexeme>) {
+    let found = (1..lexemes.len()).find(|at| {
+        let rest = &lexemes[at + 1..];
+        let behind = longest(rest, DIRECTIONS).and_then(|(_, count)| rest.get(count..));
+        word(lexemes, *at) == "thats" && behind.is_some_and(|rest| longest_phrase(rest, &["of"]).is_some())
+    });
+    if let Some(at) = found {
+        let place = lexemes[at].clone();
+        lexemes.splice(at..=at, words_at(&place, "that is").collect::<Vec<_>>());
     }
 }
 
