@@ -30,6 +30,7 @@ pub(super) fn in_plain_words(lexemes: &[Lexeme], names: &Names<'_>) -> Vec<Lexem
         told = way(&told).unwrap_or(told);
     }
     let told = none_is_there(&told, names).unwrap_or(told);
+    let told = new_at_point(&told, names).unwrap_or(told);
     new_by_its_name(&told, names).unwrap_or(told)
 }
 
@@ -216,6 +217,17 @@ fn none_is_there(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
         let first = [word_at(&lexemes[0], "put"), word_at(&lexemes[0], "a")];
         let parts = [&lexemes[none..asset], &lexemes[one + 1..it], &lexemes[place..comma]];
         [&first[..], &parts.concat()[..], &lexemes[it + 1..]].concat()
+    })
+}
+
+/// "Wooden crate at (-15, 15)": a new one, where nothing is called so.
+fn new_at_point(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
+    let asset = names.asset_words(lexemes)?;
+    let is_open = lexemes.get(asset + 1).is_some_and(|open| open.token == Token::Open);
+    let is_new = is_open && word(lexemes, asset) == "at" && names.exact(lexemes).is_none();
+    is_new.then(|| {
+        let put = [word_at(&lexemes[0], "put"), word_at(&lexemes[0], "a")];
+        [&put[..], lexemes].concat()
     })
 }
 

@@ -29,7 +29,7 @@ const WHOLE: &Turns = &[
     ("A , poor|dear|good|old|sweet|lucky|silly|bless|our|my X , is|was|has|looks|seems|wants B .|,|- so|- please|- move|bring|take|put|send him|her|it C", "move A C"),
     ("A looks|seems|feels X , so|- please|- turn|rotate|spin him|her|it B , maybe|perhaps|hopefully Q", "turn A B"),
     ("the A isnt|is not|- ours|mine|theirs|needed|wanted , so|- please|- remove|delete|erase|scrap it ,|- but|and|while the B one is|stays|belongs , so|- please|- paint|colour|color|repaint it K", "remove the A and paint the B one K"),
-    ("i|we pass|see|visit|watch N every|each B , and|- Q why isnt|is there|- not|no|- D A R it . so put|add|place|build|set one|it there|in|up|-", "put D A R N"),
+    ("i|we pass|see|visit|watch N every|each B , and|- Q why isnt|is not|- there not|- no|- D A R it . so put|add|place|build|set one|it there|in|up|-", "put D A R N"),
     ("the A by|near|beside|at N are|is finished|done|over|complete|completed|gone at|- last|long|- , so|and P in front of it Q", "P in front of N Q"),
     // Any one will do.
     ("im|i|we|were am|are|- not|dont|wont fussy|picky|choosy|particular|mind|care Q any old|- A will|would do ,|- just|only|- so|as long as its|it is|- K and|, it|- ends|stands|is|goes|sits|stays|- up|- W", "put a K A W"),
@@ -38,7 +38,7 @@ const WHOLE: &Turns = &[
     ("ive|i|weve|we have|- got|- a|- whole|- load|lot|bunch|pile|heap|stack of A left|spare over|- , so Q . line|put|set|place|arrange|stand up|out|- D of them|those ,|- evenly|equally ,|- from B to C", "put D A between B and C , evenly spaced"),
     ("X time|hour|party|concert|show|festival|lesson|class|reading at|by|in|on|near N . D B spread|spaced|placed|arranged|set|distributed|- evenly|equally|- all|right|- around|round it|them", "put D B around N , evenly spaced"),
     // What is asked twice.
-    ("whats|what is the story|deal|matter|score with|behind|about A ,|- by|- the|- way|- . describe|explain B to|for me|us Q", "describe B"),
+    ("whats|what is|- the story|deal|matter|score with|behind|about A ,|- by|- the|- way|- . describe|explain B to|for me|us Q", "describe B"),
 ];
 /// Turns of one sentence each.
 #[rustfmt::skip]
@@ -51,12 +51,12 @@ const PARTS: &Turns = &[
     ("both A , the B , have|has|need|needs|must|should|ought|are to|- be|go|- removed|deleted|gone|scrapped|erased|away|-", "remove the B A"),
     ("P and of A , i|we want|like|need|prefer N tidy|clean|empty|neat|clear|free|uncluttered", "P and A"),
     // Conditions.
-    ("if theres|there is|- still|- D A lying|standing|sitting|parked|hanging about|around|here|there|- , B , its|theyve|hes|shes|it|they been|has|have C", "if there is D A , B"),
+    ("if theres|there is|- still|- D A lying|standing|sitting|parked|hanging about|around|here|there|- , B , its|theyve|hes|shes|it|he|she|they been|has|have|is C", "if there is D A , B"),
     ("if theres|there is|- still|- D A lying|standing|sitting|parked|hanging about|around|here|there|- , B", "if there is D A , B"),
-    ("if A , B , its|theyve|hes|shes been there|here|around|about|lying|standing|sitting|parked C", "if A , B"),
+    ("if A , B , its|theyve|hes|shes|it|he|she|they is|has|have|- been there|here|around|about|lying|standing|sitting|parked C", "if A , B"),
     ("P , have D A standing|sitting|waiting|parked|stand|sit|wait|lying W", "P , put D A W"),
     // What is said while somebody thinks, and what follows a request.
-    ("O stack|pile|heap|put|set|line up|out|down|- , hmm|um|er|well|uh|- ,|- lets|let|- us|- say ,|- D A", "O put D A"),
+    ("O stack|pile|heap|put|set|line up|out|down|- ,|- hmm|um|er|well|uh|- ,|- lets|let|- us|- say ,|- D A", "O put D A"),
     ("O scale|size|blow|bump|make|enlarge N up|- to|- twice|double|thrice|triple|half its|the|- size|- ,|- hmm|no|wait|er|um|actually|sorry|well|- ,|- make that|it B", "O make N B"),
     ("P , maybe|perhaps|hopefully it|itll|hell|shell|theyll|he|she|they will|would|might|- find|like|love|enjoy|appreciate|laugh|smile|cheer Q", "P"),
     ("P , he|she|it|they could|can|would|might do|use|go with|for|- some|a|more|- bit|of|- music|company|cheer|cheering|entertainment|fun|help|love|rest|sleep|attention|support|inspiration|courage|variety up|-", "P"),
@@ -67,7 +67,7 @@ const PARTS: &Turns = &[
     ("A looks|seems|feels X , so|- please|- turn|rotate|spin him|her|it B", "turn A B"),
     ("P at last", "P"),
     // What somebody says that is to be done.
-    ("lets|let us surprise|amaze|impress|shock|delight|scare|amuse|treat everyone|everybody|people|them|him|her|all and P", "P"),
+    ("lets|let us|- surprise|amaze|impress|shock|delight|scare|amuse|treat everyone|everybody|people|them|him|her|all and P", "P"),
     ("my|the|our|his|her X says|said|orders|ordered|insists|suggests|suggested|tells|told|asks|asked|begs|begged me|us|you|- to P", "P"),
     ("they|he|she|you promised|said|swore|told|assured me|us|- A , so P", "P"),
     ("good|- morning|evening|afternoon|day|- ,|- visitors|people|drivers|tourists|cars|students|customers|folks|they park|parks|stop|drive|stand|walk everywhere|anywhere|constantly|always , so D B", "put D B"),
@@ -75,6 +75,8 @@ const PARTS: &Turns = &[
     ("i|we promised|owe|owed|offered|pledged the|my|our|these|all|- X D A W", "put D A W"),
     ("for my|the|our|this|your X shot|scene|photo|picture|film|movie|video|trailer|poster|story|game|level|brochure ,|- i|we|id|wed want|need|would|like like|- D A", "put D A"),
     ("O give my|the|our|this|that X a|an Y Z", "O make it a Y Z"),
+    ("O a|an|- Y january|february|march|april|may|june|july|august|september|october|november|december Z with|and|in A", "O make it a Y Z with A"),
+    ("O a|an|- Y january|february|march|april|may|june|july|august|september|october|november|december Z", "O make it a Y Z"),
     // How somebody or something goes somewhere.
     ("P bring|fetch|get|take D A and|then then|- put|set|place|park|seat|sit|stand|leave him|her|it|them W", "P put D A W"),
     ("P bring|fetch|get|take A and|then then|- put|set|place|park|seat|sit|stand|leave him|her|it|them W", "P move A W"),
