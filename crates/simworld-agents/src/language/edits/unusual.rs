@@ -72,6 +72,7 @@ const PARTS: &Turns = &[
     ("they|he|she|you promised|said|swore|told|assured me|us|- A , so P", "P"),
     ("good|- morning|evening|afternoon|day|- ,|- visitors|people|drivers|tourists|cars|students|customers|folks|they park|parks|stop|drive|stand|walk everywhere|anywhere|constantly|always , so D B", "put D B"),
     ("i|we|they|somebody promised|owe|owed|offered|pledged the|my|our|these|all|- X D A every|each M from B across|over|up|down|all|right|- the|- way|- to C", "add A every M between B and C"),
+    ("i|we need|want|lack X W , D B is|are what i|we was|were|am|are|had|have thinking|dreaming|in of|about|mind", "put D B W"),
     ("i|we promised|owe|owed|offered|pledged the|my|our|these|all|- X D A W", "put D A W"),
     ("for my|the|our|this|your X shot|scene|photo|picture|film|movie|video|trailer|poster|story|game|level|brochure ,|- i|we|id|wed want|need|would|like like|- D A", "put D A"),
     ("O give my|the|our|this|that X a|an Y Z", "O make it a Y Z"),
