@@ -154,6 +154,7 @@ fn what_is_said_around_an_order_leaves_it_as_it_is() {
                 "Anything in the way of trees taller than ten metres spoils the view of the fireworks, cut it down.",
                 "remove pine",
             ),
+            ("wooden crate at (-15, 15)", "add wooden_crate at (-15, 15)"),
             ("Let's surprise everyone and park a bus inside the Corner Shop!", "! impossible"),
             (
                 "This is an emergency, so land a helicopter next to the mailbox.",
@@ -229,6 +230,23 @@ fn which_is_meant_is_said_before() {
         "put a utility box next to the middle one of the three street lamps on Station Road",
         &[
             "Those three street lamps on Station Road, right? The middle one, the one between the other two, keeps buzzing, so put a utility box next to it.",
+        ],
+    );
+}
+
+#[test]
+fn the_one_that_was_there_is_none_of_the_new_ones() {
+    come_to(
+        "quarter",
+        &[
+            (
+                "Three deck chairs around the statue, an orange parasol beside Ada, and a guitar on the chair.",
+                "add deck_chair 3 near statue + add parasol orange next_to ada + add guitar on_top_of chair",
+            ),
+            (
+                "Put two folding chairs next to the statue and remove the chair.",
+                "add folding_chair 2 next_to statue + remove chair",
+            ),
         ],
     );
 }

@@ -109,6 +109,8 @@ impl Ear<'_> {
         let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
         let originals = reader.with_originals(&finder);
         let reader = Reader { lexemes: originals.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let before = reader.with_what_was_there(&finder);
+        let reader = Reader { lexemes: before.as_deref().unwrap_or(reader.lexemes), ..reader };
         let left = reader.with_what_is_left(&finder);
         let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
         let several = reader.with_several_nearest(&finder);

@@ -115,6 +115,7 @@ mod strangers;
 mod supposed;
 mod talk;
 mod texts;
+mod there_before;
 mod things;
 mod told;
 mod topics;

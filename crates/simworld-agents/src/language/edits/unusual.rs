@@ -100,7 +100,13 @@ pub(super) fn ways(
 ) -> Vec<Vec<Lexeme>> {
     let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
     // A word that these turns alone know may have been taken for a slip.
-    [heard, &spelt[..]].into_iter().flat_map(|said| told(words, said, names)).collect()
+    let mut ways: Vec<Vec<Lexeme>> = Vec::new();
+    for way in [heard, &spelt[..]].into_iter().flat_map(|said| told(words, said, names)) {
+        if ways.iter().all(|other| !is_same(other, &way)) {
+            ways.push(way);
+        }
+    }
+    ways
 }
 
 /// The words with the conditions on doors put plainly, and by all of the turns; each if it differs.
