@@ -8,6 +8,7 @@ use super::super::lexer::{Lexeme, is_mark};
 use super::super::names::Names;
 use super::forms::is_same;
 use super::retold::{Turns, by_turn, last_mark, told_by};
+use super::unusual_first::points_back;
 use super::{Focus, door_states, restated, slips};
 use crate::editing::Stock;
 
@@ -101,7 +102,7 @@ pub(super) fn ways(
     let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
     // A word that these turns alone know may have been taken for a slip.
     let mut ways: Vec<Vec<Lexeme>> = Vec::new();
-    for way in [heard, &spelt[..]].into_iter().flat_map(|said| told(words, said, names)) {
+    for way in [heard, &spelt[..]].into_iter().flat_map(|said| told(words, said, names, focus)) {
         if ways.iter().all(|other| !is_same(other, &way)) {
             ways.push(way);
         }
@@ -110,10 +111,13 @@ pub(super) fn ways(
 }
 
 /// The words with the conditions on doors put plainly, and by all of the turns; each if it differs.
-fn told(words: &str, lexemes: &[Lexeme], names: &Names<'_>) -> Vec<Vec<Lexeme>> {
+fn told(words: &str, lexemes: &[Lexeme], names: &Names<'_>, focus: &Focus) -> Vec<Vec<Lexeme>> {
     let doors = door_states::in_plain_words(words, lexemes);
     let said = restated::in_plain_words(doors.as_deref().unwrap_or(lexemes), names);
     let turned = turned(&said);
+    // What "it" stood for may be left out, and what was spoken of before the sentence is not meant.
+    let is_open = focus.it.is_some() && !is_same(&turned, &said) && points_back(&turned);
+    let turned = if is_open { said.clone() } else { turned };
     let plain = restated::in_plain_words(&turned, names);
     let mut ways: Vec<Vec<Lexeme>> = doors.into_iter().collect();
     for way in [said, plain] {

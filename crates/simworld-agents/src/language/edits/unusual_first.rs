@@ -85,7 +85,8 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     }
 }
 
-fn points_back(lexemes: &[Lexeme]) -> bool {
+/// Whether a word speaks of what was named before.
+pub(super) fn points_back(lexemes: &[Lexeme]) -> bool {
     lexemes.iter().any(|lexeme| POINTS_BACK.contains(&word_of(lexeme)))
 }
 
