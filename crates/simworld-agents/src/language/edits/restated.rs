@@ -253,7 +253,7 @@ fn new_by_its_name(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>>
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::lexer::{Lexeme, rewritten};
+    use super::super::super::lexer::rewritten;
     use super::*;
 
     /// What a rule makes of words, or the words.
