@@ -59,8 +59,13 @@ const SENTENCES: &Turns = &[
     ("you wont|would|wouldnt|will|d never|not|- believe|guess what|who|how A . D B W . Q so|then please|- add|build|put|place it|one|that", "add D B W"),
     ("guess what|who|how A . D B W . Q so|then please|- add|build|put|place it|one|that", "add D B W"),
     ("those|these|the D A ,|- right|ok|okay|yes|- . the middle one , Q so P next|near|close|beside to|- it", "P next to the middle one of the D A"),
-    ("P do|can|did you see|know|remember|notice|spot the|that A . Q that|this building|place|house", "P Q the A"),
 ];
+/// A building that is spoken of by what it is, and pointed at then.
+#[rustfmt::skip]
+const THAT_BUILDING: &Turns = &[("P do|can|did you see|know|remember|notice|spot the|that A . Q that|this building|place|house", "P Q the A")];
+/// What buildings are.
+#[rustfmt::skip]
+const BUILDINGS: &[&str] = &["office", "school", "museum", "hospital", "clinic", "shop", "store", "restaurant", "café", "cafe", "library", "bakery", "kiosk", "cottage", "lab", "gallery", "diner", "bar", "pub", "tower", "canteen"];
 /// Words that speak of what was named before.
 const POINTS_BACK: &[&str] = &["it", "its", "him", "her", "them", "there", "they", "that", "those"];
 
@@ -73,7 +78,9 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     where_it_was(lexemes);
     which_was_there(lexemes);
     let end = last_mark(lexemes);
-    if let Some(told) = SENTENCES.iter().find_map(|(said, meant)| by_turn(&lexemes[..end], said, meant))
+    let tables = if sees_building(lexemes) { [SENTENCES, THAT_BUILDING] } else { [SENTENCES, &[]] };
+    let mut turns = tables.into_iter().flatten();
+    if let Some(told) = turns.find_map(|(said, meant)| by_turn(&lexemes[..end], said, meant))
         && !points_back(&told)
     {
         lexemes.splice(..end, told);
@@ -83,6 +90,15 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     if !is_same(&told, lexemes) && !points_back(&told) {
         *lexemes = told;
     }
+}
+
+/// "Do you see the old office ...": whether a building is what is asked about.
+fn sees_building(lexemes: &[Lexeme]) -> bool {
+    let is_building = |at: usize| BUILDINGS.contains(&word(lexemes, at));
+    (0..lexemes.len()).any(|at| {
+        let is_the = matches!(word(lexemes, at + 2), "the" | "that");
+        word(lexemes, at) == "you" && is_the && (is_building(at + 3) || is_building(at + 4))
+    })
 }
 
 /// Whether a word speaks of what was named before.
