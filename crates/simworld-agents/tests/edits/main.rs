@@ -23,6 +23,7 @@ mod edits_common;
 mod edits_in_other_words;
 mod edits_keep_land_use;
 mod edits_let_things_fall;
+mod edits_of_rare_forms;
 mod edits_refer_across_sentences;
 #[path = "../shared/model_server/mod.rs"]
 mod model_server;

@@ -65,7 +65,7 @@ impl Reader<'_> {
             let tail =
                 (start + 1..end).find(|at| longest_phrase(&self.lexemes[*at..end], TAILS) == Some(end - at));
             let marked =
-                tail.or_else(|| (end > start + 1 && is_mark(&self.lexemes[end - 1])).then_some(end - 1));
+                tail.or_else(|| (end > start + 1 && is_mark(&self.lexemes[end - 1])).then(|| end - 1));
             match marked {
                 Some(cut) => end = cut,
                 None => return end,

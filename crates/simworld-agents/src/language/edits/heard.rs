@@ -10,7 +10,7 @@ use super::super::streets::StreetNames;
 use super::super::{LONGEST_SENTENCE, RANGE, hearing};
 use super::attempts::{is_known, is_nowhere, wishes_of};
 use super::memo::Memo;
-use super::parse::Reader;
+use super::parse::{Reader, UNDERSTOOD};
 use super::resolve::Finder;
 use super::wish::Wish;
 use super::words::{WAYS, Way};
@@ -19,7 +19,8 @@ use super::{
     forms, gone_by_name, gone_once, headings, hesitations, homophones, lastly, made_once, margins, meant,
     narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, precautions,
     presence, remarked, repairs, respelt, retold, rows, sells_both, shades, sky_stated, slips, spared,
-    spoken, statements, talk, talked, view_of, which, whole, withdrawn, wording,
+    spoken, statements, talk, talked, texts, unusual, unusual_first, view_of, which, whole, withdrawn,
+    wording,
 };
 use crate::editing::{EditError, Stock};
 
@@ -39,6 +40,10 @@ pub(crate) fn read(
     let tells_place = statements::tells_place(&heard);
     let ear = Ear { words, scene, stock, focus, begins_with_place, tells_place };
     shades::in_plain_words(words, &mut heard);
+    if texts::asks_for_words(&heard) {
+        let hint = UNDERSTOOD.to_owned();
+        return Err(EditError::NotUnderstood { words: shortened(words), fragment: shortened(words), hint });
+    }
     // What is said in one go has nothing that could be left out, nor that takes up anything said before.
     let last = heard.iter().rposition(|lexeme| !is_mark(lexeme)).unwrap_or(0);
     let in_one_go = !heard[..last].iter().any(|lexeme| is_mark(lexeme) || chatter::begins_reason(lexeme));
@@ -55,6 +60,7 @@ pub(crate) fn read(
         Ear::in_other_words,
         Ear::placed,
         Ear::told_anew,
+        Ear::told_unusually,
         Ear::without_statements,
         Ear::talked,
         Ear::with_what_is_named,
@@ -117,6 +123,8 @@ impl Ear<'_> {
         let reader = Reader { lexemes: stood.as_deref().unwrap_or(reader.lexemes), ..reader };
         let originals = reader.with_originals(&finder);
         let reader = Reader { lexemes: originals.as_deref().unwrap_or(reader.lexemes), ..reader };
+        let before = reader.with_what_was_there(&finder);
+        let reader = Reader { lexemes: before.as_deref().unwrap_or(reader.lexemes), ..reader };
         let left = reader.with_what_is_left(&finder);
         let reader = Reader { lexemes: left.as_deref().unwrap_or(reader.lexemes), ..reader };
         let several = reader.with_several_nearest(&finder);
@@ -222,6 +230,17 @@ impl Ear<'_> {
         let Self { words, stock, focus, .. } = *self;
         let names = self.names(heard);
         self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
+    }
+
+    /// As [`Self::in_other_words`], by turns that few use, conditions on doors, and what is said again by a part of it.
+    fn told_unusually(
+        &self,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        self.first_granted(unusual::ways(words, heard, &names, stock, focus), read)
     }
 
     /// The first of some ways to say a sentence that is granted; or else what is wrong with it.
@@ -395,6 +414,7 @@ fn put_plainly(
     sky_stated::in_plain_words(lexemes);
     talked::in_plain_words(lexemes);
     beforehand::leave_out(words, lexemes, names);
+    unusual_first::in_plain_words(words, lexemes);
     headings::in_plain_words(words, lexemes, names);
     presence::in_plain_words(lexemes);
     meant::in_plain_words(lexemes);

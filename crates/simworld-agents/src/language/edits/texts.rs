@@ -1,7 +1,10 @@
-//! What is to be done to words, and to nothing of the scene: "translate this paragraph into Finnish", though to translate a thing is to move it.
+//! What is to be done to words, and to nothing of the scene: "translate this paragraph into Finnish", though to translate a thing is to move it;
+//! and words that are asked for: "tell me a good joke", "do you know a recipe for pancakes?", "send an e-mail to my boss".
 
-use super::super::lexicon::longest_phrase;
+use super::super::lexer::{Lexeme, is_mark};
+use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
+use super::forms::word;
 use super::parse::Reader;
 
 /// What is done to words.
@@ -25,6 +28,41 @@ const LANGUAGES: &[&str] = &["english", "finnish", "swedish", "norwegian", "dani
 const INTO: &[&str] = &["into", "to", "in", "from"];
 /// So many words may stand between the order and what it is about: "this very long paragraph".
 const FARTHEST: usize = 5;
+
+/// What asks somebody for words.
+#[rustfmt::skip]
+const TELLS: &Phrases = &Phrases::of(&["tell me a", "tell me another", "tell us a", "tell me some", "do you know a", "do you know any", "do you know some", "do you happen to know a", "do you have a", "have you got a", "know any", "give me a", "give us a", "write me a", "write a", "write an", "sing me a", "send a", "send an", "send me a", "send me an", "send him an", "send her an"]);
+/// The words that are asked for.
+#[rustfmt::skip]
+const ASKED: &[&str] = &["joke", "jokes", "riddle", "riddles", "recipe", "recipes", "poem", "poems", "limerick", "limericks", "pun", "puns", "email", "emails"];
+/// They stand no farther behind that: "a really good joke".
+const NEAR: usize = 4;
+
+/// Whether words are asked for, and nothing of the scene behind them.
+pub(super) fn asks_for_words(lexemes: &[Lexeme]) -> bool {
+    let mut at = 0;
+    while let Some(words) = lexemes.get(at..).and_then(led) {
+        at += words;
+    }
+    let Some(words) = lexemes.get(at..).and_then(|rest| longest_phrase(rest, TELLS)) else { return false };
+    let from = at + words;
+    let end = (from..lexemes.len()).find(|at| is_mark(&lexemes[*at])).unwrap_or(lexemes.len());
+    let is_words = |at: usize| {
+        ASKED.contains(&word(lexemes, at)) || word(lexemes, at) == "e" && word(lexemes, at + 1) == "mail"
+    };
+    let orders = |at: usize| {
+        let joins = is_mark(&lexemes[at]) || word(lexemes, at) == "and";
+        joins && longest(&lexemes[at + 1..], &super::words::VERBS).is_some()
+    };
+    (from..end.min(from + NEAR)).any(is_words) && !(from..lexemes.len()).any(orders)
+}
+
+/// How many words before an order lead to it: a mark, or what is said first.
+fn led(rest: &[Lexeme]) -> Option<usize> {
+    let first = rest.first()?;
+    let by_the_way = || longest_phrase(rest, &["by the way", "btw", "oh", "so", "well", "say"]);
+    longest_phrase(rest, LEADS).or_else(by_the_way).or(is_mark(first).then_some(1))
+}
 
 impl Reader<'_> {
     /// Whether a sentence asks that something be done to words.
