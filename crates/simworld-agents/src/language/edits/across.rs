@@ -51,7 +51,7 @@ impl Reader<'_> {
         let done = done.and_then(|said| turned(&said, FIRST).or_else(|| turned(&said, LATER)));
         told.into_iter()
             .chain(self.halved(finder))
-            .chain(self.to_each_of_them())
+            .chain(self.given_to_each())
             .chain(turned(self.lexemes, FIRST))
             .chain(done)
             .collect()
@@ -77,7 +77,7 @@ impl Reader<'_> {
     }
 
     /// "Each of them gets an umbrella right next to them": one for each of those who were named before.
-    fn to_each_of_them(&self) -> Option<Vec<Lexeme>> {
+    fn given_to_each(&self) -> Option<Vec<Lexeme>> {
         let each = (2..self.lexemes.len()).find(|at| longest_phrase(&self.lexemes[*at..], EACH).is_some())?;
         let named = self.named_before_each(each);
         if named.len() < 2 {

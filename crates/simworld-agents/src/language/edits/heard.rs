@@ -6,21 +6,18 @@ use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::longest;
 use super::super::names::Names;
 use super::super::parser::shortened;
-use super::super::streets::StreetNames;
 use super::super::{LONGEST_SENTENCE, RANGE, hearing};
 use super::attempts::{is_known, is_nowhere, wishes_of};
 use super::memo::Memo;
 use super::parse::{Reader, UNDERSTOOD};
+use super::plainly::put_plainly;
 use super::resolve::Finder;
+use super::stages::stages;
 use super::wish::Wish;
 use super::words::{WAYS, Way};
 use super::{
-    Focus, Reading, anew, beforehand, breaks, but_me, casual, chatter, doings, doubted, dress_new, facing,
-    forms, gone_by_name, gone_once, headings, hesitations, homophones, lastly, made_once, margins, meant,
-    narrowed, nth, others, paint_at_once, passing, periphrases, phrased, placed, plain, precautions,
-    presence, remarked, repairs, respelt, retold, rows, sells_both, shades, sky_stated, slips, spared,
-    spoken, statements, talk, talked, texts, unusual, unusual_first, view_of, which, whole, withdrawn,
-    wording,
+    Focus, Reading, chatter, dress_new, gone_by_name, gone_once, made_once, nth, paint_at_once, shades,
+    slips, statements, texts, view_of,
 };
 use crate::editing::{EditError, Stock};
 
@@ -55,17 +52,7 @@ pub(crate) fn read(
         return read;
     }
     let read = if in_one_go { read } else { ear.without_chatter(heard.clone(), read) };
-    let stages = [
-        Ear::across_sentences,
-        Ear::in_other_words,
-        Ear::placed,
-        Ear::told_anew,
-        Ear::told_unusually,
-        Ear::without_statements,
-        Ear::talked,
-        Ear::with_what_is_named,
-    ];
-    let read = stages
+    let read = stages()
         .into_iter()
         .fold(read, |read, stage| if ear.is_granted(&read) { read } else { stage(&ear, &heard, read) });
     match read {
@@ -80,27 +67,27 @@ pub(crate) fn read(
 
 /// A sentence, and the scene in which it is heard.
 #[derive(Clone, Copy)]
-struct Ear<'a> {
-    words: &'a str,
-    scene: &'a dyn Scene,
-    stock: &'a Stock,
-    focus: &'a Focus,
+pub(super) struct Ear<'a> {
+    pub(super) words: &'a str,
+    pub(super) scene: &'a dyn Scene,
+    pub(super) stock: &'a Stock,
+    pub(super) focus: &'a Focus,
     /// Whether the sentence begins with a place, so that what is made stands nowhere else.
     begins_with_place: bool,
     /// Whether any of its parts does, so that something that is made stands somewhere.
-    tells_place: bool,
+    pub(super) tells_place: bool,
 }
 
 impl<'a> Ear<'a> {
     /// The names of the scene, and of what was made in words that were heard.
-    fn names(&self, heard: &[Lexeme]) -> Names<'a> {
+    pub(super) fn names(&self, heard: &[Lexeme]) -> Names<'a> {
         Names::new(self.scene, self.focus.from, RANGE).with_made(heard, &self.stock.catalogue)
     }
 }
 
 impl Ear<'_> {
     /// The wishes of what was heard, or of some of it.
-    fn read(&self, mut lexemes: Vec<Lexeme>) -> Result<Reading, EditError> {
+    pub(super) fn read(&self, mut lexemes: Vec<Lexeme>) -> Result<Reading, EditError> {
         let Self { words, scene, stock, focus, .. } = *self;
         let view = view_of(scene, focus);
         let names = Names::new(scene, focus.from, RANGE);
@@ -150,7 +137,7 @@ impl Ear<'_> {
 
     /// Whether a sentence is understood, somebody has what it asks for, and what it is about first is there; or whether what is wrong with it
     /// is something else.
-    fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
+    pub(super) fn is_granted(&self, read: &Result<Reading, EditError>) -> bool {
         match read {
             Ok(reading) if self.loses_place(reading) => false,
             // What was found to be granted while it was read is not worked out anew.
@@ -172,7 +159,7 @@ impl Ear<'_> {
     }
 
     /// Whether what the first wish is about is not there. What later wishes are about may be made by earlier ones.
-    fn is_missing(&self, reading: &Reading) -> bool {
+    pub(super) fn is_missing(&self, reading: &Reading) -> bool {
         let Self { scene, stock, focus, .. } = *self;
         let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
         let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
@@ -180,7 +167,7 @@ impl Ear<'_> {
     }
 
     /// The sentence without what in it asks for nothing, if that is granted; or else the answer that says most.
-    fn without_chatter(
+    pub(super) fn without_chatter(
         &self,
         mut heard: Vec<Lexeme>,
         read: Result<Reading, EditError>,
@@ -211,240 +198,4 @@ impl Ear<'_> {
             _ => read,
         }
     }
-}
-
-impl Ear<'_> {
-    /// The sentence as it may have been meant, if that is granted; or else what is wrong with it.
-    fn in_other_words(
-        &self,
-        heard: &[Lexeme],
-        read: Result<Reading, EditError>,
-    ) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(lastly::ways(words, heard, &names, stock, focus), read)
-    }
-
-    /// As [`Self::in_other_words`], by questions in other words and by scenes that are set.
-    fn told_anew(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
-    }
-
-    /// As [`Self::in_other_words`], by turns that few use, conditions on doors, and what is said again by a part of it.
-    fn told_unusually(
-        &self,
-        heard: &[Lexeme],
-        read: Result<Reading, EditError>,
-    ) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(unusual::ways(words, heard, &names, stock, focus), read)
-    }
-
-    /// The first of some ways to say a sentence that is granted; or else what is wrong with it.
-    fn first_granted(
-        &self,
-        ways: Vec<Vec<Lexeme>>,
-        read: Result<Reading, EditError>,
-    ) -> Result<Reading, EditError> {
-        for way in ways {
-            let anew = self.read(way.clone());
-            let anew = if self.is_granted(&anew) { anew } else { self.without_chatter(way, anew) };
-            if self.is_granted(&anew) {
-                return anew;
-            }
-        }
-        read
-    }
-
-    /// As [`Self::in_other_words`], by where things stand that are told round about.
-    fn placed(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
-        let placed = [heard, &spelt[..]].map(|said| placed::ways(words, said, &names)).concat();
-        placed.into_iter().map(|way| self.read(way)).find(|anew| self.is_granted(anew)).unwrap_or(read)
-    }
-
-    /// The sentence without the statements beside its request, in any of the other ways.
-    fn without_statements(
-        &self,
-        heard: &[Lexeme],
-        mut read: Result<Reading, EditError>,
-    ) -> Result<Reading, EditError> {
-        let names = self.names(heard);
-        let is_open = |refused: &EditError| {
-            matches!(refused, EditError::NotUnderstood { .. } | EditError::NotFound { .. })
-        };
-        let mut asked = None;
-        let left = statements::with_what_was_left(heard);
-        for way in left.into_iter().chain(statements::without(heard, &names)) {
-            if asked.is_none() && !self.tells_place {
-                asked = Some(self.read(way.clone())).filter(|read| !read.as_ref().is_err_and(is_open));
-            }
-            let otherwise = lastly::in_other_words(&way);
-            read = self.first_granted(vec![way.clone(), otherwise], read);
-            for stage in [Self::placed, Self::told_anew] {
-                if self.is_granted(&read) {
-                    return read;
-                }
-                read = stage(self, &way, read);
-            }
-        }
-        // What somebody asks for and nobody has says more than that what he told of is not there.
-        match asked {
-            Some(asked) if !self.is_granted(&read) => asked,
-            _ => read,
-        }
-    }
-}
-
-impl Ear<'_> {
-    /// The sentence as its parts take one another up, where it would be misread as it stands and is granted so; or which of several is meant
-    /// must be asked.
-    fn taken_up(&self, heard: &[Lexeme]) -> Option<Result<Reading, EditError>> {
-        let ways = self.across(heard, true);
-        let granted = |read: &Result<Reading, EditError>| read.is_ok() && self.is_granted(read);
-        let found = ways.into_iter().map(|way| self.read(way)).find(granted);
-        found.or_else(|| self.undecided(heard).map(Err))
-    }
-
-    /// What is to be asked where one of several is meant and nothing decides which.
-    fn undecided(&self, heard: &[Lexeme]) -> Option<EditError> {
-        let Self { words, scene, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
-        let (view, memo) = (view_of(scene, focus), Memo::default());
-        let reader =
-            Reader { words, lexemes: heard, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
-        reader.undecided(&finder)
-    }
-
-    /// As [`Self::in_other_words`], by what one sentence asks for in the words of another.
-    fn across_sentences(
-        &self,
-        heard: &[Lexeme],
-        read: Result<Reading, EditError>,
-    ) -> Result<Reading, EditError> {
-        self.first_granted(self.across(heard, false), read)
-    }
-
-    /// Ways in which the parts of a sentence take one another up, as it was heard and as it is spelt; those that would be misread or the others.
-    fn across(&self, heard: &[Lexeme], misread: bool) -> Vec<Vec<Lexeme>> {
-        let Self { words, scene, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
-        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
-        let (view, memo) = (view_of(scene, focus), Memo::default());
-        let reader =
-            Reader { words, lexemes: &spelt, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
-        let ways = |reader: &Reader<'_>| {
-            if misread { reader.across_first(&finder) } else { reader.across_later(&finder) }
-        };
-        let mut told = ways(&reader);
-        // A word that these turns alone know may have been taken for a slip.
-        if !forms::is_same(&spelt, heard) {
-            told.extend(ways(&Reader { lexemes: heard, ..reader }));
-        }
-        told
-    }
-}
-
-impl Ear<'_> {
-    /// The sentence as people talk, in any of the other ways.
-    fn talked(&self, heard: &[Lexeme], mut read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        let spelt = slips::corrected(words, heard, &names, stock, &focus.streets);
-        let ways = talked::ways(words, heard, &spelt, &names);
-        let plainest = ways.last().cloned();
-        read = self.first_granted(ways, read);
-        let Some(plainest) = plainest else { return read };
-        for stage in [Self::in_other_words, Self::placed, Self::told_anew] {
-            if self.is_granted(&read) {
-                return read;
-            }
-            read = stage(self, &plainest, read);
-        }
-        read
-    }
-
-    /// "The windmill looks shabby, paint it white": that there is no windmill, where nothing is there that "it" could stand for.
-    fn with_what_is_named(
-        &self,
-        heard: &[Lexeme],
-        read: Result<Reading, EditError>,
-    ) -> Result<Reading, EditError> {
-        let named = remarked::with_what_is_named(heard);
-        if named.len() == heard.len() || !self.stands_for_nothing(&read) {
-            return read;
-        }
-        let anew = self.read(named);
-        let is_missing = match &anew {
-            Ok(reading) => self.is_missing(reading),
-            Err(refused) => matches!(refused, EditError::NotFound { .. }),
-        };
-        if is_missing { anew } else { read }
-    }
-
-    /// Whether a sentence is refused because nothing is there that its pronoun could stand for.
-    fn stands_for_nothing(&self, read: &Result<Reading, EditError>) -> bool {
-        let Self { scene, stock, focus, .. } = *self;
-        let finder = Finder { scene, stock, focus, view: view_of(scene, focus), settling: None };
-        let is_open = |refused: &EditError| matches!(refused, EditError::NotFound { wanted, .. } if wanted.contains("could stand for"));
-        match read {
-            Ok(reading) => reading.wishes.first().is_some_and(|readings| {
-                readings.iter().all(|wish| finder.edits(wish).is_err_and(|refused| is_open(&refused)))
-            }),
-            Err(refused) => is_open(refused),
-        }
-    }
-}
-
-/// Puts the words of a sentence plainly, one thing at a time, before it is read.
-fn put_plainly(
-    words: &str,
-    lexemes: &mut Vec<Lexeme>,
-    names: &Names<'_>,
-    (stock, streets): (&Stock, &StreetNames),
-) {
-    precautions::leave_out(lexemes);
-    sky_stated::in_plain_words(lexemes);
-    talked::in_plain_words(lexemes);
-    beforehand::leave_out(words, lexemes, names);
-    unusual_first::in_plain_words(words, lexemes);
-    headings::in_plain_words(words, lexemes, names);
-    presence::in_plain_words(lexemes);
-    meant::in_plain_words(lexemes);
-    withdrawn::in_plain_words(lexemes);
-    but_me::in_plain_words(lexemes);
-    facing::in_plain_words(lexemes);
-    margins::in_plain_words(lexemes);
-    remarked::in_plain_words(lexemes);
-    hesitations::in_plain_words(words, lexemes);
-    breaks::in_plain_words(words, lexemes);
-    wording::in_plain_words(words, lexemes);
-    respelt::in_plain_spelling(words, lexemes);
-    homophones::in_plain_spelling(words, lexemes);
-    periphrases::in_plain_words(lexemes);
-    talk::in_plain_words(words, lexemes, names);
-    doubted::in_plain_words(lexemes);
-    casual::in_plain_words(lexemes);
-    retold::in_plain_words(lexemes);
-    doings::in_plain_words(lexemes);
-    slips::correct(words, lexemes, names, stock, streets);
-    spared::in_plain_words(lexemes);
-    sells_both::in_plain_words(lexemes, names);
-    phrased::in_plain_words(words, lexemes, names);
-    narrowed::in_plain_words(lexemes);
-    plain::in_plain_words(words, lexemes, names);
-    others::in_plain_words(lexemes);
-    which::in_plain_words(lexemes);
-    whole::in_plain_words(lexemes);
-    passing::leave_out(lexemes);
-    rows::on_both_sides(lexemes, streets);
-    repairs::put_right(lexemes);
-    spoken::name_streets(lexemes, streets);
 }

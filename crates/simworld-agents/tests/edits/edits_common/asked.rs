@@ -7,7 +7,7 @@ use crate::tables::{lines_at, lines_of};
 
 pub(crate) const CITIES: [&str; 5] = ["harbour", "oldtown", "campus", "quarter", "crescent"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`. Not every city has every set.
-const SETS: [&str; 44] = [
+const SETS: [&str; 46] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -51,6 +51,8 @@ const SETS: [&str; 44] = [
     "fortyfirst.edits",
     "fortysecond.edits",
     "fortythird.edits",
+    "fortyfourth.edits",
+    "fortyfifth.edits",
     "turned.edits",
 ];
 
