@@ -240,8 +240,8 @@ fn the_one_that_was_there_is_none_of_the_new_ones() {
         "quarter",
         &[
             (
-                "Three deck chairs around the statue, an orange parasol beside Ada, and a guitar on the chair.",
-                "add deck_chair 3 near statue + add parasol orange next_to ada + add guitar on_top_of chair",
+                "Three deck chairs around the statue, an orange parasol beside Ada, and a flower pot on the chair.",
+                "add deck_chair 3 near statue + add parasol orange next_to ada + add flower_pot on_top_of chair",
             ),
             (
                 "Put two folding chairs next to the statue and remove the chair.",

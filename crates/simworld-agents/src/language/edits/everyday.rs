@@ -7,11 +7,13 @@
 
 use super::retold::Turns;
 
-/// What is put plainly before a sentence is read, since "me" would be taken for a thing.
+/// What is put plainly before a sentence is read, since "me" would be taken for a thing, and all but some for all.
 #[rustfmt::skip]
 pub(super) const EVERYDAY_FIRST: &Turns = &[
     ("O do|paint|colour|color me|us N in|- K", "O paint N K"),
     ("O make me|us N in K", "O paint N K"),
+    // All but some would be all at first, and then some.
+    ("O remove|delete|erase|clear|scrap|ditch|bin N , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O remove all N except V"),
 ];
 
 /// What is tried where a sentence was refused, one sentence each.
@@ -50,7 +52,6 @@ pub(super) const EVERYDAY: &Turns = &[
     // All of them but some.
     ("O paint|repaint|colour|color|dye|spray|make|turn|want|have N K , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O paint all N except V K"),
     ("O paint|repaint|colour|color|dye|spray|make|turn|want|have N K , except|bar|save|excluding|barring for|- V", "O paint all N except V K"),
-    ("O remove|delete|erase|clear|scrap|ditch|bin N , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O remove all N except V"),
     ("O remove|delete|erase|clear|scrap|ditch|bin N , except|bar|save|excluding|barring for|- V", "O remove all N except V"),
     ("O move|shift|bring|push|carry N W , all|every|each|everyone one|of|- them|- but|except|bar|save|excluding|barring for|- V", "O move all N except V W"),
     ("O move|shift|bring|push|carry N W , except|bar|save|excluding|barring for|- V", "O move all N except V W"),

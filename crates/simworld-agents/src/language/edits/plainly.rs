@@ -6,8 +6,8 @@ use super::super::streets::StreetNames;
 use super::{
     beforehand, breaks, but_me, casual, doings, doubted, facing, headings, hesitations, homophones, margins,
     meant, narrowed, others, passing, periphrases, phrased, plain, precautions, presence, remarked, repairs,
-    respelt, retold, rows, sells_both, sky_stated, slips, spared, spoken, talk, talked, unusual_first, which,
-    whole, withdrawn, wording,
+    respelt, restated, retold, rows, sells_both, sky_stated, slips, spared, spoken, talk, talked,
+    unusual_first, which, whole, withdrawn, wording,
 };
 use crate::editing::Stock;
 
@@ -21,6 +21,7 @@ pub(super) fn put_plainly(
     precautions::leave_out(lexemes);
     sky_stated::in_plain_words(lexemes);
     talked::in_plain_words(lexemes);
+    restated::put_plainly(lexemes);
     beforehand::leave_out(words, lexemes, names);
     unusual_first::in_plain_words(words, lexemes);
     headings::in_plain_words(words, lexemes, names);

@@ -27,7 +27,7 @@ impl Reading {
     pub(crate) fn lacking(&self, stock: &Stock) -> Vec<(String, String)> {
         let things = self.wishes.iter().flatten().flat_map(|wish| match wish {
             Wish::Add { things, .. } => things.as_slice(),
-            Wish::Replace { with, .. } => std::slice::from_ref(with),
+            Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => std::slice::from_ref(thing),
             _ => &[],
         });
         let lacking = things.filter(|thing| matches!(thing.make(stock), Err(EditError::UnknownThing { .. })));

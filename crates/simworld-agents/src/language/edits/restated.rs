@@ -25,13 +25,20 @@ const FARTHEST_ONE: usize = 3;
 /// The words in plainer ones, if any of these changes them.
 pub(super) fn in_plain_words(lexemes: &[Lexeme], names: &Names<'_>) -> Vec<Lexeme> {
     let mut told = lexemes.to_vec();
-    let ways = [in_metres, point_in_words, of_the_same, placed_again, painted_again, one_of_the_same];
+    let ways = [in_metres, point_in_words, of_the_same, placed_again, one_of_the_same];
     for way in ways {
         told = way(&told).unwrap_or(told);
     }
     let told = none_is_there(&told, names).unwrap_or(told);
     let told = new_at_point(&told, names).unwrap_or(told);
     new_by_its_name(&told, names).unwrap_or(told)
+}
+
+/// As [`in_plain_words`], where the sentence would be misread: a thing that is painted twice.
+pub(super) fn put_plainly(lexemes: &mut Vec<Lexeme>) {
+    if let Some(told) = painted_again(lexemes) {
+        *lexemes = told;
+    }
 }
 
 /// "400 cm" is four metres.

@@ -247,9 +247,8 @@ impl Reader<'_> {
         })
     }
 
-    /// "Of the two birches, the taller one": which is asked, if they are as tall as each other.
+    /// "Of the two birches, the taller one": which is asked, if they are as tall as each other. None of two is the middle one.
     pub(super) fn undecided(&self, finder: &Finder<'_>) -> Option<EditError> {
-        longest_phrase(self.lexemes, OF)?;
         let Told { all, noun, from, .. } = self.told_of(finder)?;
         let is_open = |at: usize| matches!(self.which_of(at, (&all[..], noun.as_str()), finder), Some((None, words)) if words > 0);
         (from..self.lexemes.len()).any(is_open).then(|| {

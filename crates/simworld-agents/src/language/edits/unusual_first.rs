@@ -35,6 +35,7 @@ const FIRST: &Turns = &[
     ("this|it is a|an|- real|total|absolute|proper|genuine|- emergency|test|drill|joke|prank|surprise|crisis|rehearsal , so P", "P"),
     ("its a|an|- real|total|absolute|proper|genuine|- emergency|test|drill|joke|prank|surprise|crisis|rehearsal , so P", "P"),
     ("i|we|ive|weve have|need|want|got|- to store|stock|stash|hoard|keep some|a|an|more|our|my|the|- X ,|- so P", "P"),
+    ("P .|,|- every harbour|harbor|port|quay|city|town|village|campus|university|quarter|district|neighbourhood|film|scene needs|wants|deserves|has|should|must have|- one|some|it", "P"),
     // What somebody would adore.
     ("A would|d adore|love|enjoy|appreciate|worship|welcome D B , so|and|then please|- put|add|place|build|park|set|stick|plant it|one|them|some W", "put D B W"),
     ("wed|id|theyd all|- cheer|root|beg|pray|queue|scream|applaud for D A", "add D A"),
