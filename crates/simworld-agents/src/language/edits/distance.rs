@@ -50,13 +50,22 @@ impl Reader<'_> {
             let stands = longest_phrase(words, STANDS)?;
             self.stand_asked(start + stands, end)
         };
-        let alone = || {
-            let from = start + longest_phrase(words, FAR)?;
-            let what = self.place_asked(from, end).ok().filter(|_| self.is_certain(from))?;
-            Some((what, me()))
+        let asked = match way.or_else(stand) {
+            None => self.alone_asked(start, end)?,
+            asked => asked,
         };
-        let asked = way.or_else(stand).or_else(alone);
         Ok(asked.map(|(one, other)| Wish::AskDistance { one, other }))
+    }
+
+    /// "How far is the oak?": from who speaks.
+    fn alone_asked(&self, start: usize, end: usize) -> Result<Option<(Reference, Reference)>, PlanError> {
+        let far = longest_phrase(&self.lexemes[start..end], FAR).map(|words| start + words);
+        let Some(from) = far.filter(|from| self.is_certain(*from)) else { return Ok(None) };
+        match self.place_asked(from, end) {
+            Ok(what) => Ok(Some((what, me()))),
+            Err(missing @ PlanError::NotFound { .. }) => Err(missing),
+            Err(_) => Ok(None),
+        }
     }
 
     /// Without "roughly" and the like.
