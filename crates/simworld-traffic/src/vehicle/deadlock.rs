@@ -1,26 +1,29 @@
 //! Locks: rings of lanes whose first vehicles wait for those of the next; and how they are undone.
 //!
 //! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane; so it does if one
-//! who stands there has his rear across its way, or the permit of a [cluster](super::clusters) that it needs, if one who
+//! who stands there has his rear across its way, if it stands behind one who has [left](super::leavers) it for that lane but for his rear, or the permit of a [cluster](super::clusters) that it needs, if one who
 //! changes lanes stands before it in both, if it has leave to follow those who stand on that lane, and if the room there is kept for
 //! another. Every lane waits for one at most, so that rings are found by following. A ring is
 //! undone by those of its first vehicles that have another way with room, which they take; if none has, all of them may enter
 //! their junctions at once without room behind and without a permit: as all go, each makes the room of the one behind it.
-//! Nobody jumps, and all other rules of crossing hold.
+//! Behind those who may, everybody closes up, so that rears come out of junctions in which nobody else could go. Nobody jumps, and all other
+//! rules of crossing hold.
+
+use simworld_core::id::LaneId;
 
 use super::clock::Moment;
 use super::junction::{PATIENT, is_room};
 use super::lane_change::{old_lane, stretch};
 use super::manager::{EXIT, NONE, Path, STANDING, Vehicle, VehicleManager};
-use super::part::Tail;
+use super::tail::Tail;
 use super::tracks::{Track, Tracks, Way};
 use crate::{Counters, Leg, TrafficConfig};
 
 /// Who has stood for so long may be in a lock, s. Whatever the signals show: where each of a ring waits for room behind a lane
 /// that stands, nobody goes.
-const LOCKED: f64 = 12.0;
+pub(super) const LOCKED: f64 = 12.0;
 /// Who stands farther than this from its line stands behind something, m.
-const SHORT: f64 = 3.0;
+pub(super) const SHORT: f64 = 3.0;
 /// Locks are looked for so often, s.
 const EVERY: f64 = 1.0;
 
@@ -81,7 +84,9 @@ impl VehicleManager {
                 waits.edges.push((lane, target, 0));
             }
         }
+        waits.edges.extend(self.left_behind(tracks).map(|(lane, target)| (lane, target, 0)));
         waits.edges.sort_unstable();
+        waits.edges.dedup_by_key(|edge| edge.0);
         for start in 0..waits.edges.len() {
             if let Some(ring) = waits.ring_from(start) {
                 counters.locks += 1;
@@ -100,7 +105,8 @@ impl VehicleManager {
         lane: Track,
         first: &Vehicle,
     ) -> Option<Track> {
-        if let Some(after) = follows_onto(tracks, first) {
+        let follows = || follows_onto(tracks, first);
+        if let Some(after) = self.behind_a_leaver(tracks, lane, first).or_else(follows) {
             return Some(after);
         }
         if let Some(old) = self.has_half_changed(tracks, lane, first) {
@@ -138,7 +144,7 @@ impl VehicleManager {
         (end - first.s > SHORT).then(|| beside.into_iter().find(stands_in_both)).flatten()
     }
 
-    /// The lane on which somebody stands whose rear is on a way that meets one's own.
+    /// The lane on which somebody stands whose rear is on a way that meets one's own, or to which somebody stands on such a way.
     fn rear_in_the_way(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
         let way = first.next as usize;
         let conflicts = tracks.conflicts[way].iter().map(|conflict| conflict.way);
@@ -146,7 +152,9 @@ impl VehicleManager {
         let stands_on = |way: &u32| {
             let lane = tracks.lane_after(*way as usize);
             let last = self.queue(tracks, lane).last();
+            let mut on_way = self.queue(tracks, tracks.lanes as Track + *way).iter();
             last.is_some_and(|last| last.v < STANDING && last.holding == *way && !has_leave(last))
+                || on_way.any(|other| other.v < STANDING && other.stood > LOCKED)
         };
         meeting.find(stands_on).map(|way| tracks.lane_after(way as usize))
     }
@@ -175,7 +183,8 @@ impl VehicleManager {
             return None;
         }
         let after = tracks.lane_after(first.next as usize);
-        let stands = self.queue(tracks, after).last().is_some_and(|last| last.v < STANDING);
+        let last = self.end_of(tracks, after);
+        let stands = !last.is_none() && last.v < STANDING;
         if stands && (!self.has_room(tracks, config, first.next, first) || self.is_kept(tracks, first, after))
         {
             return Some(after);
@@ -220,7 +229,7 @@ impl VehicleManager {
     /// Whether there is room for a vehicle behind a way.
     fn has_room(&self, tracks: &Tracks, config: &TrafficConfig, way: u32, vehicle: &Vehicle) -> bool {
         let lane = tracks.lane_after(way as usize);
-        let last = self.queue(tracks, lane).last().map_or_else(Tail::default, Tail::of);
+        let last = self.end_of(tracks, lane);
         is_room(tracks, config, (&self.junctions, &self.storage), (lane, &last), vehicle)
     }
 
@@ -283,10 +292,15 @@ impl VehicleManager {
         self.take_way(tracks, lane, 0, way)
     }
 
-    /// Whether the first of a lane may come to the end of its route by a way; without a route, always.
+    /// Whether the first of a lane may come to the end of its route by a way; without a route, whether one can drive on there without
+    /// end: he would stand at the end for good.
     fn leads_home(&self, tracks: &Tracks, lane: Track, way: u32) -> bool {
-        let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
-        self.goal(tracks, lane, 0).is_none_or(|goal| self.closures.quickest(tracks, after, goal).is_some())
+        let after = tracks.lane_after(way as usize);
+        let leg = Leg::of(&tracks.network, LaneId(after));
+        match self.goal(tracks, lane, 0) {
+            Some(goal) => self.closures.quickest(tracks, leg, goal).is_some(),
+            None => tracks.leads_on[after as usize],
+        }
     }
 }
 
@@ -297,7 +311,7 @@ fn follows_onto(tracks: &Tracks, first: &Vehicle) -> Option<Track> {
 }
 
 /// Whether the first of a lane has leave for the way that it wants.
-fn has_leave(first: &Vehicle) -> bool {
+pub(super) fn has_leave(first: &Vehicle) -> bool {
     first.next < EXIT && first.holding == first.next
 }
 
@@ -324,6 +338,33 @@ mod tests {
             assert_eq!(due.len(), 4000, "with steps of {dt} s");
             let apart = due.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * dt);
             assert!(apart.clone().all(|apart| (apart - EVERY).abs() < 1.01 * dt), "with steps of {dt} s");
+        }
+    }
+
+    #[test]
+    fn who_turns_at_random_is_not_sent_to_where_he_would_stand_for_good() {
+        use simworld_core::geometry::Point2;
+        use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+        let mut plan = StreetPlan::grid(2, 2, 100.0);
+        let out = plan.add_section(CrossSection::two_way(1, 0));
+        let (street, end) = (plan.streets.len() as u32, plan.nodes.len());
+        plan.nodes.push(Point2::new(-100.0, 0.0));
+        plan.streets.push(Street { section: out, ..Street::simple(0, end) });
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let mut vehicles = VehicleManager::new(&tracks);
+        let leads_out = |way: &usize| tracks.network.lanes[tracks.lane_after(*way) as usize].road.0 == street;
+        let way_out = (0..tracks.ways.len()).find(leads_out).expect("a way leads out");
+        let lane = tracks.ways[way_out].from;
+        let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 0, 20.0);
+        vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+        let outgoing = &tracks.network.lanes[lane as usize].outgoing;
+        assert!(outgoing.len() > 1);
+        for way in outgoing {
+            let leads_home = vehicles.leads_home(&tracks, lane, way.0);
+            assert_eq!(leads_home, way.index() != way_out, "way {}", way.0);
         }
     }
 

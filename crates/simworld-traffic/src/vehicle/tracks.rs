@@ -192,6 +192,13 @@ impl Tracks {
         self.network.roads[road.index()].roundabout
     }
 
+    /// Whether nobody meets a way or crosses it, as on a bend: there one drives up to whoever is behind it.
+    #[inline]
+    pub(super) fn is_alone(&self, way: usize) -> bool {
+        [self.tight[way].len(), self.narrow[way].len(), self.strips[way].len()] == [0; 3]
+            && self.conflicts[way].is_empty()
+    }
+
     /// Distance between the middles of two lanes side by side, m.
     pub(crate) fn apart(&self, a: Track, b: Track) -> f64 {
         (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
