@@ -9,15 +9,14 @@
 //! Behind those who may, everybody closes up, so that rears come out of junctions in which nobody else could go. Nobody jumps, and all other
 //! rules of crossing hold.
 
-use simworld_core::id::LaneId;
-
 use super::clock::Moment;
 use super::junction::{PATIENT, is_room};
 use super::lane_change::{old_lane, stretch};
+use super::leavers::FAR;
 use super::manager::{EXIT, NONE, Path, STANDING, Vehicle, VehicleManager};
 use super::tail::Tail;
 use super::tracks::{Track, Tracks, Way};
-use crate::{Counters, Leg, TrafficConfig};
+use crate::{Counters, TrafficConfig};
 
 /// Who has stood for so long may be in a lock, s. Whatever the signals show: where each of a ring waits for room behind a lane
 /// that stands, nobody goes.
@@ -105,7 +104,7 @@ impl VehicleManager {
         lane: Track,
         first: &Vehicle,
     ) -> Option<Track> {
-        let follows = || follows_onto(tracks, first);
+        let follows = || self.follows_onto(tracks, lane, first);
         if let Some(after) = self.behind_a_leaver(tracks, lane, first).or_else(follows) {
             return Some(after);
         }
@@ -121,27 +120,48 @@ impl VehicleManager {
         self.waits_for(tracks, config, first).or_else(half_changed).or_else(rear).or_else(permit)
     }
 
-    /// The lane that the first of another has not quite left, if it has long stood there behind somebody who stands in that.
+    /// The lane on to which the first of another has leave to follow others, as on a bend, and has long stood behind them; or one on to
+    /// which those stand who are in the way there.
+    fn follows_onto(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
+        let stands = has_leave(first) && !first.halt.is_finite() && first.stood > LOCKED;
+        let front = first.s - tracks.length[lane as usize];
+        stands.then(|| self.held_up_by(tracks, first.next, front, FAR))
+    }
+
+    /// The lane that the first of another has not quite left, if it has long stood there behind somebody who stands in that; or the one to
+    /// which somebody changes from that who stands before it.
     fn has_half_changed(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
         let stands = first.shift != 0.0 && !first.halt.is_finite() && first.stood > LOCKED;
         let old = old_lane(tracks, lane, first).filter(|_| stands)?;
         let front = first.s * stretch(tracks, lane, old);
         let is_behind = self.queue(tracks, old).iter().any(|ahead| ahead.s > front && ahead.v < STANDING);
-        is_behind.then_some(old)
+        if is_behind {
+            Some(old)
+        } else {
+            self.who_leaves_before(tracks, old, front).find(|beside| *beside != lane)
+        }
     }
 
     /// The lane beside on which somebody stands who has not quite left this one, before its first.
     fn who_changes_before(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
         let end = tracks.length[lane as usize];
+        (end - first.s > SHORT).then(|| self.who_leaves_before(tracks, lane, first.s).next()).flatten()
+    }
+
+    /// The lanes beside on which somebody stands beyond a station of this one who has not quite left it.
+    fn who_leaves_before<'a>(
+        &'a self,
+        tracks: &'a Tracks,
+        lane: Track,
+        front: f64,
+    ) -> impl Iterator<Item = Track> + 'a {
         let beside = tracks.beside[lane as usize].into_iter().filter(|beside| *beside != NONE);
-        let stands_in_both = |beside: &Track| {
-            let ahead = first.s * stretch(tracks, lane, *beside);
-            let mut queue = self.queue(tracks, *beside).iter();
-            queue.any(|v| {
+        beside.filter(move |beside| {
+            let ahead = front * stretch(tracks, lane, *beside);
+            self.queue(tracks, *beside).iter().any(|v| {
                 v.s > ahead && v.v < STANDING && v.shift != 0.0 && old_lane(tracks, *beside, v) == Some(lane)
             })
-        };
-        (end - first.s > SHORT).then(|| beside.into_iter().find(stands_in_both)).flatten()
+        })
     }
 
     /// The lane on which somebody stands whose rear is on a way that meets one's own, or to which somebody stands on such a way.
@@ -149,14 +169,17 @@ impl VehicleManager {
         let way = first.next as usize;
         let conflicts = tracks.conflicts[way].iter().map(|conflict| conflict.way);
         let mut meeting = conflicts.chain(tracks.tight[way].iter().copied());
-        let stands_on = |way: &u32| {
-            let lane = tracks.lane_after(*way as usize);
+        let stands_on = |way: u32| {
+            let lane = tracks.lane_after(way as usize);
             let last = self.queue(tracks, lane).last();
-            let mut on_way = self.queue(tracks, tracks.lanes as Track + *way).iter();
-            last.is_some_and(|last| last.v < STANDING && last.holding == *way && !has_leave(last))
-                || on_way.any(|other| other.v < STANDING && other.stood > LOCKED)
+            if last.is_some_and(|last| last.v < STANDING && last.holding == way && !has_leave(last)) {
+                return Some(lane);
+            }
+            let mut on_way = self.queue(tracks, tracks.lanes as Track + way).iter();
+            let stands = on_way.any(|other| other.v < STANDING && other.stood > LOCKED);
+            stands.then(|| self.held_up_by(tracks, way, f64::INFINITY, FAR))
         };
-        meeting.find(stands_on).map(|way| tracks.lane_after(way as usize))
+        meeting.find_map(stands_on)
     }
 
     /// The lane on which somebody stands who has the permit that one needs.
@@ -296,18 +319,11 @@ impl VehicleManager {
     /// end: he would stand at the end for good.
     fn leads_home(&self, tracks: &Tracks, lane: Track, way: u32) -> bool {
         let after = tracks.lane_after(way as usize);
-        let leg = Leg::of(&tracks.network, LaneId(after));
         match self.goal(tracks, lane, 0) {
-            Some(goal) => self.closures.quickest(tracks, leg, goal).is_some(),
+            Some(goal) => self.closures.quickest_from(tracks, after, goal, None).is_some(),
             None => tracks.leads_on[after as usize],
         }
     }
-}
-
-/// The lane on to which the first of another has leave to follow others, as on a bend, and has long stood behind them.
-fn follows_onto(tracks: &Tracks, first: &Vehicle) -> Option<Track> {
-    let stands = has_leave(first) && !first.halt.is_finite() && first.stood > LOCKED;
-    stands.then(|| tracks.lane_after(first.next as usize))
 }
 
 /// Whether the first of a lane has leave for the way that it wants.

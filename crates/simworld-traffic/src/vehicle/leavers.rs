@@ -8,6 +8,9 @@ use super::manager::{STANDING, Vehicle, VehicleManager};
 use super::tail::Tail;
 use super::tracks::{Track, Tracks};
 
+/// So many ways are followed on which one stands for another.
+pub(super) const FAR: usize = 3;
+
 impl VehicleManager {
     /// The end of a lane: its last vehicle, or the rear of one who has left it.
     pub(super) fn end_of(&self, tracks: &Tracks, lane: Track) -> Tail {
@@ -21,26 +24,51 @@ impl VehicleManager {
         tail
     }
 
-    /// The lane to which somebody is on his way behind whose rear the first of a lane has long stood, on another way than his own.
+    /// The lane to which somebody is on his way behind whose rear the first of a lane has long stood, who has no leave himself.
     pub(super) fn behind_a_leaver(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
-        if first.stood <= LOCKED || first.halt.is_finite() {
+        if first.stood <= LOCKED || first.halt.is_finite() || has_leave(first) {
             return None;
         }
         let front = first.s - tracks.length[lane as usize];
-        let is_behind = |way: u32, clear: f64| {
+        let is_behind = |way: u32| {
             self.queue(tracks, tracks.lanes as Track + way).last().is_some_and(|last| {
                 let rear = last.s - last.length();
-                last.v < STANDING && rear < clear && rear - front < SHORT
+                last.v < STANDING && rear < 0.0 && rear - front < SHORT
             })
         };
-        if has_leave(first) {
-            let mut siblings = tracks.siblings[first.next as usize].iter();
-            return siblings
-                .find(|(way, clear)| is_behind(*way, *clear))
-                .map(|(way, _)| tracks.lane_after(*way as usize));
-        }
         let mut ways = tracks.network.lanes[lane as usize].outgoing.iter();
-        ways.find(|way| is_behind(way.0, 0.0)).map(|way| tracks.lane_after(way.index()))
+        ways.find(|way| is_behind(way.0)).map(|way| self.held_up_by(tracks, way.0, f64::INFINITY, FAR))
+    }
+
+    /// The lane for which those stand who have leave for a way: the one behind it, or that behind another way on which somebody stands in
+    /// their way. `front` is where the first of them is along the way if nobody is on it, negative before it.
+    pub(super) fn held_up_by(&self, tracks: &Tracks, way: u32, front: f64, far: usize) -> Track {
+        let after = tracks.lane_after(way as usize);
+        let track = tracks.lanes as Track + way;
+        let front = self.queue(tracks, track).first().map_or(front, |first| first.s);
+        if self.end_of(tracks, after).rear + tracks.length[track as usize] - front < SHORT {
+            return after;
+        }
+        let siblings = tracks.siblings[way as usize].iter().map(|(other, clear)| (*other, *clear));
+        let meeting = tracks.conflicts[way as usize].iter().map(|conflict| (conflict.way, f64::INFINITY));
+        let stands = siblings.chain(meeting).find_map(|(other, clear)| self.stands_on(tracks, other, clear));
+        match stands {
+            Some((other, true)) if far > 0 => self.held_up_by(tracks, other, f64::INFINITY, far - 1),
+            Some((other, _)) => tracks.lane_after(other as usize),
+            None => after,
+        }
+    }
+
+    /// A way if somebody stands on it with his rear before a station, and whether his front is on it as well.
+    fn stands_on(&self, tracks: &Tracks, way: u32, clear: f64) -> Option<(u32, bool)> {
+        let track = tracks.lanes as Track + way;
+        let end = tracks.length[track as usize];
+        let stands = |other: &Vehicle, s: f64| other.v < STANDING && s - other.length() < clear;
+        if self.queue(tracks, track).iter().any(|other| stands(other, other.s)) {
+            return Some((way, true));
+        }
+        let last = self.queue(tracks, tracks.lane_after(way as usize)).last()?;
+        (last.holding == way && !has_leave(last) && stands(last, last.s + end)).then_some((way, false))
     }
 
     /// The lanes on which nobody is but the rears of those who have long stood on a way from there, with the lanes behind these ways.
@@ -48,10 +76,12 @@ impl VehicleManager {
         self.parts.iter().zip(&tracks.layout.parts).flat_map(move |(part, layout)| {
             let ways = part.slabs.occupied().skip_while(|local| *local < layout.lanes);
             ways.filter_map(move |local| {
-                let way = &tracks.ways[layout.tracks[local] as usize - tracks.lanes];
+                let number = layout.tracks[local] - tracks.lanes as Track;
+                let way = &tracks.ways[number as usize];
                 let last = part.slabs.queue(local).last()?;
                 let is_left = last.s < last.length() && last.stood > LOCKED;
-                (is_left && self.queue(tracks, way.from).is_empty()).then_some((way.from, way.to))
+                (is_left && self.queue(tracks, way.from).is_empty())
+                    .then(|| (way.from, self.held_up_by(tracks, number, f64::INFINITY, FAR)))
             })
         })
     }

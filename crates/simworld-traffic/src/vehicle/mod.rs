@@ -20,6 +20,7 @@ mod kerb;
 mod lane_change;
 mod lanes;
 mod layout;
+mod leading;
 mod leavers;
 mod lookahead;
 mod manager;
