@@ -385,6 +385,33 @@ mod tests {
     }
 
     #[test]
+    fn who_changes_out_of_a_lane_holds_up_who_changes_into_the_one_beyond() {
+        use simworld_core::geometry::Point2;
+        use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+        let nodes = vec![Point2::new(0.0, 0.0), Point2::new(100.0, 0.0)];
+        let mut plan = StreetPlan { nodes, ..StreetPlan::default() };
+        let section = plan.add_section(CrossSection::two_way(3, 0));
+        plan.streets.push(Street { section, ..Street::simple(0, 1) });
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let mut vehicles = VehicleManager::new(&tracks);
+        let middle = (0..3).find(|lane| !tracks.beside[*lane as usize].contains(&NONE)).expect("three lanes");
+        let [left, right] = tracks.beside[middle as usize];
+        // Both come from the middle: to the left at 40 m, to the right at 46 m.
+        let put = |vehicles: &mut VehicleManager, id: u32, lane: Track, s: f64, shift: f32| {
+            let car = Vehicle { shift, stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+            vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+        };
+        put(&mut vehicles, 0, left, 40.0, -2.0);
+        let first = vehicles.queue(&tracks, left)[0];
+        assert_eq!(vehicles.has_half_changed(&tracks, left, &first), None, "nobody is before it");
+        put(&mut vehicles, 1, right, 46.0, 2.0);
+        assert_eq!(vehicles.has_half_changed(&tracks, left, &first), Some(right));
+    }
+
+    #[test]
     fn every_ring_is_found_once() {
         // Two rings, 0-1-2 and 5-6, a tail 3-4 into the first, and 8 that waits for a lane which moves.
         let edges = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 1), (5, 6), (6, 5), (8, 9)];

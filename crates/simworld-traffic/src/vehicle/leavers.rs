@@ -163,6 +163,24 @@ mod tests {
     }
 
     #[test]
+    fn who_stands_beside_a_rear_on_another_way_waits_for_the_lane_of_that_one() {
+        let (tracks, config, mut vehicles) = empty(&StreetPlan::crossroads(100.0));
+        let way = (0..tracks.ways.len()).find(|way| tracks.siblings[*way].len() > 1).expect("it has arms");
+        let (sibling, _) = tracks.siblings[way][0];
+        let (own, other) = (tracks.lane_after(way), tracks.lane_after(sibling as usize));
+        let track = (tracks.lanes + way) as Track;
+        put(&mut vehicles, &tracks, &config, (track, 1.0), 60.0);
+        let far = f64::INFINITY;
+        assert_eq!(vehicles.held_up_by(&tracks, way as u32, far, FAR), own, "nobody else is there");
+        // One who has come to the lane behind the other way, but for his rear at the very beginning of that.
+        let end = tracks.length[tracks.lanes + sibling as usize];
+        put(&mut vehicles, &tracks, &config, (other, 0.1), 60.0);
+        let last = &mut vehicles.both_mut(&tracks, other).0[0];
+        (last.holding, last.length) = (sibling, (end + 0.1) as f32);
+        assert_eq!(vehicles.held_up_by(&tracks, way as u32, far, FAR), other);
+    }
+
+    #[test]
     fn who_has_to_stand_on_a_bend_leaves_less_room_on_the_lane_before_it() {
         let (tracks, config, mut vehicles, _) = bend();
         let way =
