@@ -176,6 +176,31 @@ fn what_is_not_near_stays_as_it_is() {
     assert_eq!(ends(&network), ends(&one));
 }
 
+/// Three one-way streets round a small triangle, of which the first so many say that they are a roundabout, with a street at every corner.
+fn triangle(in_ring: usize) -> RoadNetwork {
+    let mut plan = StreetPlan::default();
+    let one_way = plan.add_section(CrossSection::two_way(1, 0));
+    let corners = [[0.0, 0.0], [16.0, 0.0], [8.0, 14.0]];
+    let ends = [[-120.0, -60.0], [140.0, -60.0], [8.0, 160.0]];
+    plan.nodes.extend(corners.into_iter().chain(ends).map(|[x, y]| Point2::new(x, y)));
+    for corner in 0..3 {
+        let roundabout = corner < in_ring;
+        let street = Street::simple(corner, (corner + 1) % 3);
+        plan.streets.push(Street { section: one_way, roundabout, ..street });
+    }
+    plan.streets.extend((0..3).map(|corner| Street::simple(corner, corner + 3)));
+    RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan")
+}
+
+#[test]
+fn a_single_piece_of_a_roundabout_is_none() {
+    for in_ring in [0, 1] {
+        let one = triangle(in_ring).join_near(13.0).expect("its junctions are near").network;
+        assert!(one.roads[..3].iter().all(|road| road.lanes().next().is_none()), "{in_ring} of three");
+    }
+    assert_eq!(triangle(3).join_near(13.0), None, "round which one goes by its rule");
+}
+
 #[test]
 fn the_road_class_decides_who_gives_way_where_there_are_no_lights() {
     let mut plan = dual_carriageway(16.0);

@@ -137,8 +137,21 @@ impl Closures {
 impl Closures {
     /// The quickest route around what is closed.
     pub(super) fn quickest(&self, tracks: &Tracks, from: Leg, to: Leg) -> Option<Route> {
+        self.quickest_but(tracks, from, to, None)
+    }
+
+    /// The same, but not from one leg to another that are to be avoided.
+    pub(super) fn quickest_but(
+        &self,
+        tracks: &Tracks,
+        from: Leg,
+        to: Leg,
+        avoid: Option<(Leg, Leg)>,
+    ) -> Option<Route> {
         tracks.router.quickest_between(from, to, |before, leg| {
-            !self.has_leg(tracks, leg) && self.parted.binary_search(&(before, leg)).is_err()
+            !self.has_leg(tracks, leg)
+                && self.parted.binary_search(&(before, leg)).is_err()
+                && avoid != Some((before, leg))
         })
     }
 }

@@ -240,7 +240,7 @@ impl VehicleManager {
     ) -> Result<(), &'static str> {
         let lane = tracks.connection(track).map_or(track, |way| tracks.lane_after(way));
         let here = Leg::of(&tracks.network, LaneId(lane));
-        let leads = |lane| tracks.way_to(&self.closures, lane, next, None, kind).is_some();
+        let leads = |lane| tracks.way_to(&self.closures, lane, next, &[], kind).is_some();
         if !tracks.lanes_of(here, kind).any(leads) {
             return Err("no open way leads there from its road: give a leg that begins where its road ends");
         }
@@ -292,7 +292,7 @@ impl VehicleManager {
             }
             return;
         };
-        let Some(way) = tracks.way_to(&self.closures, lane, leg, None, kind) else {
+        let Some(way) = tracks.way_to(&self.closures, lane, leg, &[], kind) else {
             // From this lane nothing leads there: it stands at its end until it is in another.
             self.both_mut(tracks, lane).0[rank].next = NONE;
             return;

@@ -1,26 +1,28 @@
 //! Locks: rings of lanes whose first vehicles wait for those of the next; and how they are undone.
 //!
 //! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane; so it does if one
-//! who stands there has his rear across its way, or the permit of a [cluster](super::clusters) that it needs, if one who
+//! who stands there has his rear across its way, if it stands behind one who has [left](super::leavers) it for that lane but for his rear, or the permit of a [cluster](super::clusters) that it needs, if one who
 //! changes lanes stands before it in both, if it has leave to follow those who stand on that lane, and if the room there is kept for
 //! another. Every lane waits for one at most, so that rings are found by following. A ring is
 //! undone by those of its first vehicles that have another way with room, which they take; if none has, all of them may enter
 //! their junctions at once without room behind and without a permit: as all go, each makes the room of the one behind it.
-//! Nobody jumps, and all other rules of crossing hold.
+//! Behind those who may, everybody closes up, so that rears come out of junctions in which nobody else could go. Nobody jumps, and all other
+//! rules of crossing hold.
 
 use super::clock::Moment;
 use super::junction::{PATIENT, is_room};
 use super::lane_change::{old_lane, stretch};
+use super::leavers::FAR;
 use super::manager::{EXIT, NONE, Path, STANDING, Vehicle, VehicleManager};
-use super::part::Tail;
+use super::tail::Tail;
 use super::tracks::{Track, Tracks, Way};
-use crate::{Counters, Leg, TrafficConfig};
+use crate::{Counters, TrafficConfig};
 
 /// Who has stood for so long may be in a lock, s. Whatever the signals show: where each of a ring waits for room behind a lane
 /// that stands, nobody goes.
-const LOCKED: f64 = 12.0;
+pub(super) const LOCKED: f64 = 12.0;
 /// Who stands farther than this from its line stands behind something, m.
-const SHORT: f64 = 3.0;
+pub(super) const SHORT: f64 = 3.0;
 /// Locks are looked for so often, s.
 const EVERY: f64 = 1.0;
 
@@ -81,7 +83,9 @@ impl VehicleManager {
                 waits.edges.push((lane, target, 0));
             }
         }
+        waits.edges.extend(self.left_behind(tracks).map(|(lane, target)| (lane, target, 0)));
         waits.edges.sort_unstable();
+        waits.edges.dedup_by_key(|edge| edge.0);
         for start in 0..waits.edges.len() {
             if let Some(ring) = waits.ring_from(start) {
                 counters.locks += 1;
@@ -100,7 +104,8 @@ impl VehicleManager {
         lane: Track,
         first: &Vehicle,
     ) -> Option<Track> {
-        if let Some(after) = follows_onto(tracks, first) {
+        let follows = || self.follows_onto(tracks, lane, first);
+        if let Some(after) = self.behind_a_leaver(tracks, lane, first).or_else(follows) {
             return Some(after);
         }
         if let Some(old) = self.has_half_changed(tracks, lane, first) {
@@ -115,40 +120,66 @@ impl VehicleManager {
         self.waits_for(tracks, config, first).or_else(half_changed).or_else(rear).or_else(permit)
     }
 
-    /// The lane that the first of another has not quite left, if it has long stood there behind somebody who stands in that.
+    /// The lane on to which the first of another has leave to follow others, as on a bend, and has long stood behind them; or one on to
+    /// which those stand who are in the way there.
+    fn follows_onto(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
+        let stands = has_leave(first) && !first.halt.is_finite() && first.stood > LOCKED;
+        let front = first.s - tracks.length[lane as usize];
+        stands.then(|| self.held_up_by(tracks, first.next, front, FAR))
+    }
+
+    /// The lane that the first of another has not quite left, if it has long stood there behind somebody who stands in that; or the one to
+    /// which somebody changes from that who stands before it.
     fn has_half_changed(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
         let stands = first.shift != 0.0 && !first.halt.is_finite() && first.stood > LOCKED;
         let old = old_lane(tracks, lane, first).filter(|_| stands)?;
         let front = first.s * stretch(tracks, lane, old);
         let is_behind = self.queue(tracks, old).iter().any(|ahead| ahead.s > front && ahead.v < STANDING);
-        is_behind.then_some(old)
+        if is_behind {
+            Some(old)
+        } else {
+            self.who_leaves_before(tracks, old, front).find(|beside| *beside != lane)
+        }
     }
 
     /// The lane beside on which somebody stands who has not quite left this one, before its first.
     fn who_changes_before(&self, tracks: &Tracks, lane: Track, first: &Vehicle) -> Option<Track> {
         let end = tracks.length[lane as usize];
-        let beside = tracks.beside[lane as usize].into_iter().filter(|beside| *beside != NONE);
-        let stands_in_both = |beside: &Track| {
-            let ahead = first.s * stretch(tracks, lane, *beside);
-            let mut queue = self.queue(tracks, *beside).iter();
-            queue.any(|v| {
-                v.s > ahead && v.v < STANDING && v.shift != 0.0 && old_lane(tracks, *beside, v) == Some(lane)
-            })
-        };
-        (end - first.s > SHORT).then(|| beside.into_iter().find(stands_in_both)).flatten()
+        (end - first.s > SHORT).then(|| self.who_leaves_before(tracks, lane, first.s).next()).flatten()
     }
 
-    /// The lane on which somebody stands whose rear is on a way that meets one's own.
+    /// The lanes beside on which somebody stands beyond a station of this one who has not quite left it.
+    fn who_leaves_before<'a>(
+        &'a self,
+        tracks: &'a Tracks,
+        lane: Track,
+        front: f64,
+    ) -> impl Iterator<Item = Track> + 'a {
+        let beside = tracks.beside[lane as usize].into_iter().filter(|beside| *beside != NONE);
+        beside.filter(move |beside| {
+            let ahead = front * stretch(tracks, lane, *beside);
+            self.queue(tracks, *beside).iter().any(|v| {
+                v.s > ahead && v.v < STANDING && v.shift != 0.0 && old_lane(tracks, *beside, v) == Some(lane)
+            })
+        })
+    }
+
+    /// The lane on which somebody stands whose rear is on a way that meets one's own, or to which somebody stands on such a way.
     fn rear_in_the_way(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
         let way = first.next as usize;
         let conflicts = tracks.conflicts[way].iter().map(|conflict| conflict.way);
         let mut meeting = conflicts.chain(tracks.tight[way].iter().copied());
-        let stands_on = |way: &u32| {
-            let lane = tracks.lane_after(*way as usize);
+        let stands_on = |way: u32| {
+            let lane = tracks.lane_after(way as usize);
             let last = self.queue(tracks, lane).last();
-            last.is_some_and(|last| last.v < STANDING && last.holding == *way && !has_leave(last))
+            if last.is_some_and(|last| last.v < STANDING && last.holding == way && !has_leave(last)) {
+                return Some(lane);
+            }
+            let mut on_way = self.queue(tracks, tracks.lanes as Track + way).iter();
+            let stands = on_way.any(|other| other.v < STANDING && other.stood > LOCKED);
+            stands.then(|| self.held_up_by(tracks, way, f64::INFINITY, FAR))
         };
-        meeting.find(stands_on).map(|way| tracks.lane_after(way as usize))
+        meeting.find_map(stands_on)
     }
 
     /// The lane on which somebody stands who has the permit that one needs.
@@ -175,7 +206,8 @@ impl VehicleManager {
             return None;
         }
         let after = tracks.lane_after(first.next as usize);
-        let stands = self.queue(tracks, after).last().is_some_and(|last| last.v < STANDING);
+        let last = self.end_of(tracks, after);
+        let stands = !last.is_none() && last.v < STANDING;
         if stands && (!self.has_room(tracks, config, first.next, first) || self.is_kept(tracks, first, after))
         {
             return Some(after);
@@ -220,7 +252,7 @@ impl VehicleManager {
     /// Whether there is room for a vehicle behind a way.
     fn has_room(&self, tracks: &Tracks, config: &TrafficConfig, way: u32, vehicle: &Vehicle) -> bool {
         let lane = tracks.lane_after(way as usize);
-        let last = self.queue(tracks, lane).last().map_or_else(Tail::default, Tail::of);
+        let last = self.end_of(tracks, lane);
         is_room(tracks, config, (&self.junctions, &self.storage), (lane, &last), vehicle)
     }
 
@@ -283,21 +315,19 @@ impl VehicleManager {
         self.take_way(tracks, lane, 0, way)
     }
 
-    /// Whether the first of a lane may come to the end of its route by a way; without a route, always.
+    /// Whether the first of a lane may come to the end of its route by a way; without a route, whether one can drive on there without
+    /// end: he would stand at the end for good.
     fn leads_home(&self, tracks: &Tracks, lane: Track, way: u32) -> bool {
-        let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
-        self.goal(tracks, lane, 0).is_none_or(|goal| self.closures.quickest(tracks, after, goal).is_some())
+        let after = tracks.lane_after(way as usize);
+        match self.goal(tracks, lane, 0) {
+            Some(goal) => self.closures.quickest_from(tracks, after, goal, None).is_some(),
+            None => tracks.leads_on[after as usize],
+        }
     }
 }
 
-/// The lane on to which the first of another has leave to follow others, as on a bend, and has long stood behind them.
-fn follows_onto(tracks: &Tracks, first: &Vehicle) -> Option<Track> {
-    let stands = has_leave(first) && !first.halt.is_finite() && first.stood > LOCKED;
-    stands.then(|| tracks.lane_after(first.next as usize))
-}
-
 /// Whether the first of a lane has leave for the way that it wants.
-fn has_leave(first: &Vehicle) -> bool {
+pub(super) fn has_leave(first: &Vehicle) -> bool {
     first.next < EXIT && first.holding == first.next
 }
 
@@ -325,6 +355,60 @@ mod tests {
             let apart = due.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * dt);
             assert!(apart.clone().all(|apart| (apart - EVERY).abs() < 1.01 * dt), "with steps of {dt} s");
         }
+    }
+
+    #[test]
+    fn who_turns_at_random_is_not_sent_to_where_he_would_stand_for_good() {
+        use simworld_core::geometry::Point2;
+        use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+        let mut plan = StreetPlan::grid(2, 2, 100.0);
+        let out = plan.add_section(CrossSection::two_way(1, 0));
+        let (street, end) = (plan.streets.len() as u32, plan.nodes.len());
+        plan.nodes.push(Point2::new(-100.0, 0.0));
+        plan.streets.push(Street { section: out, ..Street::simple(0, end) });
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let mut vehicles = VehicleManager::new(&tracks);
+        let leads_out = |way: &usize| tracks.network.lanes[tracks.lane_after(*way) as usize].road.0 == street;
+        let way_out = (0..tracks.ways.len()).find(leads_out).expect("a way leads out");
+        let lane = tracks.ways[way_out].from;
+        let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 0, 20.0);
+        vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+        let outgoing = &tracks.network.lanes[lane as usize].outgoing;
+        assert!(outgoing.len() > 1);
+        for way in outgoing {
+            let leads_home = vehicles.leads_home(&tracks, lane, way.0);
+            assert_eq!(leads_home, way.index() != way_out, "way {}", way.0);
+        }
+    }
+
+    #[test]
+    fn who_changes_out_of_a_lane_holds_up_who_changes_into_the_one_beyond() {
+        use simworld_core::geometry::Point2;
+        use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+        let nodes = vec![Point2::new(0.0, 0.0), Point2::new(100.0, 0.0)];
+        let mut plan = StreetPlan { nodes, ..StreetPlan::default() };
+        let section = plan.add_section(CrossSection::two_way(3, 0));
+        plan.streets.push(Street { section, ..Street::simple(0, 1) });
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let mut vehicles = VehicleManager::new(&tracks);
+        let middle = (0..3).find(|lane| !tracks.beside[*lane as usize].contains(&NONE)).expect("three lanes");
+        let [left, right] = tracks.beside[middle as usize];
+        // Both come from the middle: to the left at 40 m, to the right at 46 m.
+        let put = |vehicles: &mut VehicleManager, id: u32, lane: Track, s: f64, shift: f32| {
+            let car = Vehicle { shift, stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+            vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+        };
+        put(&mut vehicles, 0, left, 40.0, -2.0);
+        let first = vehicles.queue(&tracks, left)[0];
+        assert_eq!(vehicles.has_half_changed(&tracks, left, &first), None, "nobody is before it");
+        put(&mut vehicles, 1, right, 46.0, 2.0);
+        assert_eq!(vehicles.has_half_changed(&tracks, left, &first), Some(right));
     }
 
     #[test]

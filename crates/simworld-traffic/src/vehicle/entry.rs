@@ -48,14 +48,17 @@ impl VehicleManager {
         now: f64,
     ) -> bool {
         let Some(departure) = &self.open_departure(tracks, departure) else { return false };
-        let next = self.routes.get(departure.route as usize).and_then(|route| route.0.get(1)).copied();
+        let legs = self.routes.get(departure.route as usize).map_or(&[][..], |route| &route.0);
         let row = config.vehicle_type(departure.row);
         let factor = Sirens::factor(row, departure.factor, row.siren);
         let departure = &Departure { factor, ..*departure };
         let (length, idm) = (row.length, &row.driver);
         let leads_on = |lane: &Track| {
-            next.is_none_or(|next| tracks.way_to(&self.closures, *lane, next, None, row.kind).is_some())
+            let [_, next, after @ ..] = legs else { return true };
+            tracks.way_on(&self.closures, *lane, (*next, after), row.kind).is_some()
         };
+        // Where only lanes for others lead on he begins beside them, and changes to one, or goes another way.
+        let any_leads_on = tracks.lanes_of(leg, row.kind).any(|lane| leads_on(&lane));
         let room = |lane: Track| {
             let last = self.queue(tracks, lane).last();
             last.map_or(f64::INFINITY, |last| last.s - last.length() - length)
@@ -67,7 +70,7 @@ impl VehicleManager {
         };
         let best = tracks
             .lanes_of(leg, row.kind)
-            .filter(leads_on)
+            .filter(|lane| !any_leads_on || leads_on(lane))
             .filter(|lane| self.junctions.inbound(*lane) <= 0.0 && tracks.length[*lane as usize] > length)
             .filter(|lane| !is_close(*lane) && !self.closures.has(*lane))
             .filter(|lane| {
@@ -239,8 +242,8 @@ pub(super) fn route_way(
         None => EXIT,
         // A lane that does not lead on is one to leave.
         Some(next) => {
-            let after = route.0.get(path.leg as usize + 2).copied();
-            tracks.way_to(closures, lane, *next, after, kind).unwrap_or(NONE)
+            let after = route.0.get(path.leg as usize + 2..).unwrap_or_default();
+            tracks.way_on(closures, lane, (*next, after), kind).unwrap_or(NONE)
         }
     }
 }

@@ -3,7 +3,8 @@
 
 use super::lane_change::{old_lane, out, stretch};
 use super::manager::{STANDING, Scene, Vehicle};
-use super::part::{Part, Tail};
+use super::part::Part;
+use super::tail::Tail;
 use super::tracks::{Obstacle, Track};
 
 /// From so far one sees that one's lane is blocked, m.

@@ -13,9 +13,10 @@ use super::clock::{Clock, Moment};
 use super::clusters::{TOO_LONG, Wish};
 use super::lookahead::BEFORE_LINE;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
-use super::part::{Part, Tail};
+use super::part::Part;
 use super::sirens::{SEES as SIREN_SEES, may_pass_red};
 use super::storage::Storage;
+use super::tail::Tail;
 use super::tally::Tally;
 use super::tracks::{Track, Tracks, Way};
 use super::trailing::{Trail, is_too_short};
@@ -409,10 +410,7 @@ fn may_pass(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
 fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
     let tracks = scene.tracks;
     let lane = tracks.lane_after(way);
-    // Where nobody meets one's way or crosses it, as on a bend, one drives up to whoever is there.
-    let is_alone = [tracks.tight[way].len(), tracks.narrow[way].len(), tracks.strips[way].len()] == [0; 3]
-        && tracks.conflicts[way].is_empty();
-    if is_alone && !tracks.clusters.has(lane) {
+    if tracks.is_alone(way) && !tracks.clusters.has(lane) {
         return true;
     }
     // Who is in a roundabout follows those before while they move, through the places where others enter: its lanes are too short
@@ -442,9 +440,12 @@ pub(super) fn is_room(
     }
     // What moves will have moved on by the time one gets there.
     let moves = if last.v > STANDING { last.v * 2.0 } else { 0.0 };
+    // Who has to stand on the bend behind the lane takes the end of it.
+    let gap = config.vehicle_type(vehicle.row).driver.gap;
+    let over = if last.over > 0.0 { f64::from(last.over) + gap } else { 0.0 };
     // Unless all of them fit there when they stand, one's rear may stay in the junction; in a roundabout who goes first does not
     // stand, and its lanes are too short for two.
-    let fits = || tracks.is_in_ring(lane) || storage.taken(lane) + inbound + room <= length;
+    let fits = || tracks.is_in_ring(lane) || storage.taken(lane) + over + inbound + room <= length;
     last.rear - inbound >= room || (last.rear + moves - inbound >= room && fits())
 }
 

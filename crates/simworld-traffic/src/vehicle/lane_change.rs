@@ -105,7 +105,8 @@ impl Part {
         let mut best: Option<(f64, Track, u32, usize)> = None;
         for target in scene.tracks.beside[lane as usize].into_iter().filter(|target| *target != NONE) {
             let Some(way) = self.way_from(scene, &wish, (lane, rank), target) else { continue };
-            if let Some((gain, place)) = self.gain(scene, (lane, rank), target, wish.must)
+            let better = self.leads_better(scene, (lane, rank), way);
+            if let Some((gain, place)) = self.gain(scene, (lane, rank), target, (wish.must, better))
                 && best.is_none_or(|best| gain > best.0)
             {
                 best = Some((gain, target, way, place));
@@ -173,20 +174,35 @@ impl Part {
         let own = || VehicleManager::next_leg(tracks, scene.routes, vehicle, path);
         let wanted = scene.controls.next_leg(vehicle.id).or_else(own);
         let after = scene.routes.get(path.route as usize);
-        let after = after.and_then(|route| route.0.get(path.leg as usize + 2)).copied();
+        let after = after.and_then(|route| route.0.get(path.leg as usize + 2..)).unwrap_or_default();
         // A lane on the way to one that leads on is a step towards it.
         let towards = |leg| {
-            (wish.lost && leads_towards(tracks, scene.closures, lane, target, leg, kind)).then_some(NONE)
+            (wish.lost && leads_towards(tracks, scene.closures, lane, target, (leg, after), kind))
+                .then_some(NONE)
         };
         // Who turns at random does not change from a way on to one that ends somewhere.
         let ends = |way: u32| {
             let leads_on = |way: u32| tracks.leads_on[tracks.lane_after(way as usize) as usize];
             path.route == NONE && !wish.lost && leads_on(vehicle.next) && !leads_on(way)
         };
-        let way_to = |leg| tracks.way_to(scene.closures, target, leg, after, kind).filter(|way| !ends(*way));
+        let way_to =
+            |leg| tracks.way_on(scene.closures, target, (leg, after), kind).filter(|way| !ends(*way));
         let way = wanted.and_then(|leg| way_to(leg).or_else(|| towards(leg)));
         // Who drives it may leave the lane of its route.
         way.or(wish.asked.map(|_| NONE))
+    }
+
+    /// By how many grades another way than his own leads a driver on better along his route.
+    fn leads_better(&self, scene: &Scene<'_>, (lane, rank): (Track, usize), way: u32) -> f64 {
+        let tracks = scene.tracks;
+        let local = tracks.layout.local(lane);
+        let (next, path) = (self.slabs.queue(local)[rank].next, &self.slabs.paths(local)[rank]);
+        let Some(route) = scene.routes.get(path.route as usize) else { return 0.0 };
+        if next >= EXIT || way >= EXIT {
+            return 0.0;
+        }
+        let after = route.0.get(path.leg as usize + 2..).unwrap_or_default();
+        f64::from(tracks.serves(way, after)) - f64::from(tracks.serves(next, after))
     }
 
     fn move_over(
@@ -262,13 +278,13 @@ fn leads_towards(
     closures: &Closures,
     lane: Track,
     target: Track,
-    leg: Leg,
+    legs: (Leg, &[Leg]),
     kind: VehicleKind,
 ) -> bool {
     let side = usize::from(tracks.beside[lane as usize][1] == target);
     let mut next = tracks.beside[target as usize][side];
     while next != NONE {
-        if tracks.way_to(closures, next, leg, None, kind).is_some() {
+        if tracks.way_on(closures, next, legs, kind).is_some() {
             return true;
         }
         next = tracks.beside[next as usize][side];

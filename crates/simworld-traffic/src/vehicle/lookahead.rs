@@ -21,6 +21,9 @@ const LONGEST: f64 = 20.0;
 /// Who is slower than this does not go on past a body that leaves less than this beside it, m/s and m.
 const CRAWLS: f64 = 3.0;
 const TO_SIDE: f64 = 0.2;
+/// In a lock that only all together undo one stands so near to who is ahead, m, and goes no faster there, m/s.
+const CLOSE: f64 = 0.8;
+const CLOSES_AT: f64 = 2.0;
 
 /// A track as its drivers see it.
 pub(super) struct Lane<'a> {
@@ -36,6 +39,8 @@ pub(super) struct Lane<'a> {
     bend: f64,
     /// Bodies that have not quite left it, from back to front.
     ghosts: &'a [Ghost],
+    /// Whether those on it, or on the lane behind a way, close up.
+    closes_up: bool,
 }
 
 impl<'a> Lane<'a> {
@@ -44,7 +49,9 @@ impl<'a> Lane<'a> {
         let (end, bend) = (tracks.length[track as usize], tracks.speed[track as usize]);
         let way = tracks.connection(track);
         let limit = way.map_or(bend, |way| tracks.speed[tracks.lane_after(way) as usize]);
-        Self { part, scene, track, way, end, limit, bend, ghosts }
+        let closes_up =
+            !scene.passes.is_empty() && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up;
+        Self { part, scene, track, way, end, limit, bend, ghosts, closes_up }
     }
 }
 
@@ -100,6 +107,8 @@ struct View<'a> {
     most: f64,
     /// Whether one turns in a gap in the stream of others.
     takes_gap: bool,
+    /// How much less than the usual gap one keeps to who is ahead, m.
+    closer: f64,
 }
 
 impl<'a> View<'a> {
@@ -120,6 +129,11 @@ impl<'a> View<'a> {
             bend: kind.free_speed(config, vehicle.factor, lane.bend),
             most: f64::INFINITY,
             takes_gap: false,
+            closer: if lane.closes_up && vehicle.v < CLOSES_AT {
+                (kind.driver.gap - CLOSE).max(0.0)
+            } else {
+                0.0
+            },
         }
     }
 }
@@ -154,7 +168,8 @@ impl View<'_> {
     #[inline]
     fn mind_leader(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, leader: &Vehicle) {
         let gap = leader.s - leader.length() - vehicle.s;
-        self.see(Leader { gap, speed: leader.v, acceleration: f64::from(leader.acceleration) });
+        let (speed, acceleration) = (leader.v, f64::from(leader.acceleration));
+        self.see(Leader { gap: gap + self.closer, speed, acceleration });
         if leader.halt.is_finite() && leader.v < STANDING {
             // Far enough behind that one can pass it on the lane beside.
             let idm_gap = self.idm.gap;
@@ -265,7 +280,7 @@ impl View<'_> {
         }
         for way in &lane.scene.tracks.network.lanes[lane.track as usize].outgoing {
             for (_, rear, v) in lane.part.on_way(lane.scene, way.0).filter(|other| other.1 < 0.0) {
-                self.follow(to_end + rear, v);
+                self.follow(to_end + rear + self.closer, v);
             }
         }
     }
@@ -324,7 +339,7 @@ impl View<'_> {
             }
             for (front, rear, v) in lane.part.on_way(lane.scene, *sibling) {
                 if front > at && rear < *clear {
-                    self.follow(rear - at, v);
+                    self.follow(rear - at + self.closer, v);
                 }
             }
         }
@@ -335,7 +350,7 @@ impl View<'_> {
         let lane = scene.tracks.lane_after(way);
         let last = scene.tail(lane);
         if !last.is_none() {
-            self.follow(to_lane + last.rear, last.v);
+            self.follow(to_lane + last.rear + self.closer, last.v);
         }
         if let Some(obstacle) = first_obstacle(&scene.sight, lane, 0.0, 0.0) {
             self.follow(to_lane + obstacle.near, obstacle.v);

@@ -39,13 +39,14 @@ struct Neighbours {
 }
 
 impl Part {
-    /// The advantage of a lane, m/s², and the place in its queue; `None` if it is not safe or not worth it.
+    /// The advantage of a lane, m/s², and the place in its queue; `None` if it is not safe or not worth it. One must change, or the lane
+    /// leads on better by so many grades.
     pub(super) fn gain(
         &self,
         scene: &Scene<'_>,
         (lane, rank): (Track, usize),
         target: Track,
-        must: bool,
+        (must, better): (bool, f64),
     ) -> Option<(f64, usize)> {
         let Scene { tracks, config, .. } = scene;
         let mobil = &config.mobil;
@@ -88,7 +89,7 @@ impl Part {
         };
         let own = f64::from(suits(target) - suits(lane)) * OWN_LANE;
         let loss = follower.map_or(0.0, |(before, after)| before - after);
-        let gain = mine - now + own + politeness * (left_behind - loss);
+        let gain = mine - now + own + better * OWN_LANE + politeness * (left_behind - loss);
         (gain > threshold).then_some((gain, there.rank))
     }
 

@@ -15,6 +15,7 @@ use super::lookahead::{self, Lane};
 use super::manager::{EXIT, NONE, Path, STANDING, Scene, Vehicle};
 use super::sirens::passes_red;
 use super::slabs::Slabs;
+use super::tail::Tail;
 use super::tracks::{Track, Tracks};
 use super::trailing::Trail;
 use crate::{Counters, Trip, TripEnd};
@@ -25,39 +26,6 @@ const LONG: f64 = 180.0;
 pub(super) const CLEARED: f64 = 0.3;
 /// No vehicle is so long, m.
 const LONGEST: f64 = 60.0;
-
-/// The last vehicle of a lane, as the drivers behind the junction see it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tail {
-    /// Its rear, m; infinite if the lane is empty.
-    pub(crate) rear: f64,
-    pub(crate) v: f64,
-    /// Its length, m.
-    pub(crate) length: f32,
-    /// The connection it came by, if its rear has not cleared it, and its place in the order of leave there.
-    pub(crate) way: u32,
-    pub(crate) granted: u32,
-}
-
-impl Tail {
-    pub(super) fn of(last: &Vehicle) -> Self {
-        let way = if last.holding == last.next { NONE } else { last.holding };
-        let (rear, v) = (last.s - last.length(), last.v);
-        Self { rear, v, length: last.length, way, granted: last.granted }
-    }
-
-    /// Whether the lane is empty.
-    #[inline]
-    pub(super) fn is_none(&self) -> bool {
-        self.rear == f64::INFINITY
-    }
-}
-
-impl Default for Tail {
-    fn default() -> Self {
-        Self { rear: f64::INFINITY, v: 0.0, length: 0.0, way: NONE, granted: 0 }
-    }
-}
 
 /// A vehicle that passes to another lane by a junction.
 #[derive(Clone, Copy, Debug)]
@@ -145,21 +113,23 @@ impl Part {
         } else if !self.clock.is_watched() {
             return;
         }
-        self.show_tails(self.layout(scene.tracks).lanes);
+        self.show_tails(scene.passes, self.layout(scene.tracks).lanes);
         self.show_leavers(scene);
         self.show_ghosts();
         self.show_trails(scene);
     }
 
-    fn show_tails(&mut self, lanes: usize) {
+    fn show_tails(&mut self, passes: &[u32], lanes: usize) {
         let Work { tails, shown, .. } = &mut self.work;
         if tails.len() != lanes {
             *tails = vec![Tail::default(); lanes];
         }
         shown.drain(..).for_each(|lane| tails[lane as usize] = Tail::default());
         for lane in self.slabs.occupied().take_while(|lane| *lane < lanes) {
+            let [first, ..] = self.slabs.queue(lane) else { continue };
             let Some(last) = self.slabs.queue(lane).last() else { continue };
-            tails[lane] = Tail::of(last);
+            let closes_up = !passes.is_empty() && passes.binary_search(&first.id).is_ok();
+            tails[lane] = Tail { closes_up, ..Tail::of(last) };
             shown.push(lane as u32);
         }
     }
@@ -171,14 +141,10 @@ impl Part {
         while let Some(local) = self.slabs.occupied_from(from) {
             from = local + 1;
             let Some(last) = self.slabs.queue(local).last() else { continue };
-            let rear = last.s - last.length();
-            if rear >= 0.0 {
-                continue;
-            }
-            let lane = tracks.ways[layout.tracks[local] as usize - tracks.lanes].from;
-            let (local, rear) = (tracks.layout.local(lane), tracks.length[lane as usize] + rear);
-            if rear < self.work.tails[local].rear {
-                self.work.tails[local] = Tail { rear, v: last.v, length: last.length, ..Tail::default() };
+            let way = layout.tracks[local] as usize - tracks.lanes;
+            let Some(leaver) = Tail::of_leaver(tracks, way, last) else { continue };
+            let local = tracks.layout.local(tracks.ways[way].from);
+            if self.work.tails[local].see_leaver(&leaver) {
                 self.work.shown.push(local as u32);
             }
         }

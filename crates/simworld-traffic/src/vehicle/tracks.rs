@@ -192,31 +192,41 @@ impl Tracks {
         self.network.roads[road.index()].roundabout
     }
 
+    /// Whether nobody meets a way or crosses it, as on a bend: there one drives up to whoever is behind it.
+    #[inline]
+    pub(super) fn is_alone(&self, way: usize) -> bool {
+        [self.tight[way].len(), self.narrow[way].len(), self.strips[way].len()] == [0; 3]
+            && self.conflicts[way].is_empty()
+    }
+
     /// Distance between the middles of two lanes side by side, m.
     pub(crate) fn apart(&self, a: Track, b: Track) -> f64 {
         (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
     }
 
     /// The way from a lane to an open lane of a leg, if one leads there; best to one on which the kind may drive, and from which
-    /// the leg `after` that is reached, or, for who has none, one can drive on.
+    /// the legs `after` that are reached, or, for who has none, one can drive on.
     pub(crate) fn way_to(
         &self,
         closures: &Closures,
         lane: Track,
         leg: Leg,
-        after: Option<Leg>,
+        after: &[Leg],
         kind: VehicleKind,
     ) -> Option<u32> {
         let leads_there = |exit: &&(u32, Leg)| exit.1 == leg && !closures.bars(self, exit.0 as usize);
         let ways = self.exits[lane as usize].iter().filter(leads_there).map(|exit| exit.0);
-        let first = ways.clone().next()?;
-        let open = ways.filter(|way| self.may_use(self.ways[*way as usize].to, kind));
-        // Of several lanes there, the one from which the leg after that is reached, or from which one can drive on at all.
-        let leads_on = |way: &u32| {
-            let lane = self.ways[*way as usize].to as usize;
-            after.map_or(self.leads_on[lane], |after| self.exits[lane].iter().any(|exit| exit.1 == after))
+        let worth = |way: u32| {
+            let may_use = self.may_use(self.ways[way as usize].to, kind);
+            (may_use, self.leads_on_to(way, after))
         };
-        Some(open.clone().find(leads_on).or_else(|| open.clone().next()).unwrap_or(first))
+        // Of equals the first.
+        ways.rev().max_by_key(|way| worth(*way))
+    }
+
+    /// The ways from the end of a lane, with the leg to which each leads.
+    pub(super) fn exits(&self, lane: Track) -> &[(u32, Leg)] {
+        &self.exits[lane as usize]
     }
 
     pub(crate) fn path(&self, track: Track) -> &[Point2] {

@@ -9,7 +9,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::manager::{NONE, Path, Vehicle, VehicleManager};
-use super::part::{CLEARED, Tail};
+use super::part::CLEARED;
+use super::tail::Tail;
 use super::tracks::{Track, Tracks};
 
 /// Room on a lane beyond a vehicle's length with which its rear clears the junction behind while it waits at the line, m: it
@@ -52,7 +53,7 @@ impl Trail {
     /// The lane whose end it is, and how it looks there.
     pub(super) fn shown(&self) -> (Track, Tail) {
         let Self { rear, v, length, way, granted, .. } = *self;
-        (self.lane, Tail { rear, v, length, way, granted })
+        (self.lane, Tail { rear, v, length, way, granted, ..Tail::default() })
     }
 }
 

@@ -39,7 +39,8 @@ impl Compound {
 
 /// The nodes that roads join of which every lane is shorter than that, in the order of their lowest nodes.
 pub(super) fn compounds(network: &RoadNetwork, shorter: f64) -> Vec<Compound> {
-    let joins: Vec<bool> = network.roads.iter().map(|road| is_short(network, road, shorter)).collect();
+    let ids = (0..network.roads.len()).map(RoadId::from_index);
+    let joins: Vec<bool> = ids.map(|road| is_short(network, road, shorter)).collect();
     let mut seen = vec![false; network.intersections.len()];
     let mut found = Vec::new();
     for first in 0..network.intersections.len() {
@@ -78,7 +79,7 @@ fn compound(network: &RoadNetwork, nodes: Vec<IntersectionId>, mut roads: Vec<Ro
     for id in legs.filter(leads_back) {
         let road = &network.roads[id.index()];
         if road.lanes().any(|lane| network.lanes[lane.index()].length < BACK) {
-            if road.roundabout {
+            if is_of_ring(network, *id) {
                 return None;
             }
             roads.push(*id);
@@ -90,15 +91,27 @@ fn compound(network: &RoadNetwork, nodes: Vec<IntersectionId>, mut roads: Vec<Ro
 }
 
 /// Whether nobody can stand on a road between the junctions at its ends.
-fn is_short(network: &RoadNetwork, road: &Road, shorter: f64) -> bool {
+fn is_short(network: &RoadNetwork, id: RoadId, shorter: f64) -> bool {
+    let road = &network.roads[id.index()];
     let goes_on = |node: IntersectionId| network.intersections[node.index()].roads.len() > 1;
     let mut lanes = road.lanes().map(|lane| network.lanes[lane.index()].length).peekable();
-    !road.roundabout
+    !is_of_ring(network, id)
         && road.from != road.to
         && goes_on(road.from)
         && goes_on(road.to)
         && lanes.peek().is_some()
         && lanes.all(|length| length < shorter)
+}
+
+/// Whether a road is a piece of a roundabout with others before and behind it. Maps say so of single pieces of small triangles as well, round
+/// which nobody goes by the rule of roundabouts.
+fn is_of_ring(network: &RoadNetwork, id: RoadId) -> bool {
+    let road = &network.roads[id.index()];
+    let goes_on = |node: IntersectionId| {
+        let mut others = network.intersections[node.index()].roads.iter().filter(|other| **other != id);
+        others.any(|other| network.roads[other.index()].roundabout)
+    };
+    road.roundabout && (road.from == road.to || (goes_on(road.from) && goes_on(road.to)))
 }
 
 fn main(network: &RoadNetwork, nodes: &[IntersectionId]) -> IntersectionId {
