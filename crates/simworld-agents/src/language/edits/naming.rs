@@ -187,7 +187,9 @@ impl Reader<'_> {
             return false;
         }
         self.order_at(next, end).is_some_and(|(_, words)| {
-            next + words < end && self.word(next + words).is_some_and(|word| ABOUT.contains(&word))
+            let what = next + words;
+            let is_sky = || longest(&self.lexemes[what..end], &super::words::SKIES).is_some();
+            what < end && (self.word(what).is_some_and(|word| ABOUT.contains(&word)) || is_sky())
         })
     }
 
