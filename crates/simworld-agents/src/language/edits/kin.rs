@@ -14,7 +14,7 @@ use super::kin_turns::{PARTS, WHOLE};
 use super::retold::{by_turn, last_mark, told_by};
 use super::statements::{clauses, rest_of};
 use super::unusual_first::points_back;
-use super::{Focus, sky_come, slips, told_of};
+use super::{Focus, sky_come, slips, talked, told_of};
 use crate::editing::Stock;
 
 /// Words in the place of others that say the same.
@@ -37,6 +37,11 @@ const CODAS: &Phrases = &Phrases::of(&["wouldnt it", "wouldnt they", "wouldnt he
 #[rustfmt::skip]
 const REMARKS: &Phrases = &Phrases::of(&["the poor thing", "poor thing", "the poor dear", "poor dear", "the poor man", "the poor woman", "the poor soul", "poor soul", "the poor girl", "the poor boy", "the poor chap", "poor chap", "the poor love", "this i have said", "i have said this", "i have said it", "ive said this", "ive said it", "i said it already", "i said this already", "i already said", "i have already said", "ive already said", "this i said",
     "i told you already", "i told you this", "as i have said"]);
+/// Who cannot bear something, and that he cannot.
+#[rustfmt::skip]
+const WHO: &Phrases = &Phrases::of(&["the missus", "my missus", "my wife", "the wife", "my husband", "my mother", "my mum", "my boss", "the boss", "the mayor", "my neighbours", "the neighbours", "my kids", "the kids", "my daughter", "my son", "my gran", "my dad", "my father", "the director", "the client", "i", "we", "everybody", "everyone"]);
+#[rustfmt::skip]
+const HATES: &Phrases = &Phrases::of(&["cant bear the sight of it", "cant stand the sight of it", "cannot bear the sight of it", "cannot stand the sight of it", "hates the sight of it", "hate the sight of it", "cant bear it", "cant stand it", "hates it", "hate it", "is sick of it", "are sick of it", "is sick of the sight of it", "cant abide it", "cant abide the sight of it"]);
 const IT_IS: &Phrases =
     &Phrases::of(&["its", "it is", "is", "that is", "thats", "its just", "it is just", "it gets", "gets"]);
 #[rustfmt::skip]
@@ -140,7 +145,7 @@ fn with_article(lexemes: &[Lexeme]) -> Option<Vec<Lexeme>> {
 
 /// The words in single plainer ones, without sayings and remarks beside them.
 fn reworded(words: &str, said: &[Lexeme], names: &Names<'_>) -> Vec<Lexeme> {
-    let mut plain = said.to_vec();
+    let mut plain = talked::reworded(said);
     with_verb(words, &mut plain, names);
     at_whose_side(words, &mut plain, names);
     names_turned(&mut plain, names);
@@ -159,7 +164,7 @@ fn reworded(words: &str, said: &[Lexeme], names: &Names<'_>) -> Vec<Lexeme> {
 }
 
 /// "The museum's crying out", "Poor Hana's all alone": it is, and she is.
-fn with_verb(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+pub(super) fn with_verb(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     let mut at = 0;
     while at + 1 < lexemes.len() {
         let next = word(lexemes, at + 1);
@@ -264,7 +269,12 @@ fn without_remarks(lexemes: &[Lexeme]) -> Vec<Lexeme> {
 /// Whether a part is a saying, or tells how somebody or it is there.
 fn is_remark(clause: &[Lexeme]) -> bool {
     let asks = || (0..clause.len()).any(|at| longest_phrase(&clause[at..], ASKS).is_some());
+    let hates = || {
+        let who = longest_phrase(clause, WHO)?;
+        longest_phrase(clause.get(who..)?, HATES)
+    };
     longest_phrase(clause, CODAS) == Some(clause.len())
+        || hates().is_some() && !asks()
         || longest_phrase(clause, REMARKS).is_some() && !asks()
         || tells_state(clause) && !(1..clause.len()).any(|at| is_order(clause, at))
 }

@@ -1,12 +1,15 @@
-//! What who learns the language says first of all, put plainly before it is read: "me want small dog close to Anna" wants a new one, "me, I ..." is about
-//! nobody else, and who is cold asks for no cold weather.
+//! What would be read as something else, put plainly before it is read: "me want small dog close to Anna" wants a new one, "me, I ..." is about nobody
+//! else, who is cold asks for no cold weather, and what the museum is crying out for stands next to the museum.
 
-use super::super::lexer::{Lexeme, Token, is_mark};
-use super::super::lexicon::{longest, longest_phrase};
+use super::super::lexer::{Lexeme, Token, is_mark, word_of};
+use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::names::Names;
 use super::super::numbers;
 use super::super::phrases::Phrases;
-use super::forms::{word, word_at};
+use super::forms::{is_same, word, word_at, words_at};
+use super::kin::with_verb;
+use super::kin_turns::{FIRST, FIRST_WHOLE};
+use super::retold::{by_turn, last_mark, told_by};
 use super::words::{VERBS, WAYS};
 
 const WANTS: &[&str] = &["want", "need", "like", "wish", "wants", "needs", "wanting", "needing"];
@@ -21,11 +24,84 @@ const SO: &[&str] = &["so", "very", "really", "too", "all", "quite", "a bit", "r
 #[rustfmt::skip]
 const STATES: &[&str] = &["cold", "hot", "warm", "freezing", "wet", "frozen", "soaked", "chilly", "boiling", "cool", "sweating", "shivering"];
 
+/// Who is no place by whom something could be put.
+const NOBODY: &[&str] = &[
+    "i",
+    "we",
+    "you",
+    "he",
+    "she",
+    "it",
+    "they",
+    "nobody",
+    "everybody",
+    "everyone",
+    "somebody",
+    "this",
+    "that",
+];
+
 /// Puts it plainly.
-pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     me_is_i(lexemes);
     without_own_state(lexemes);
     a_new_one(lexemes, names);
+    she_needs_one(lexemes);
+    hour_of_night(lexemes);
+    by_turns(words, lexemes, names);
+}
+
+/// By the turns that would be read otherwise.
+fn by_turns(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+    if NOBODY.contains(&word(lexemes, 0)) {
+        return;
+    }
+    let mut said = lexemes.clone();
+    with_verb(words, &mut said, names);
+    let end = last_mark(&said);
+    if let Some(mut told) = FIRST_WHOLE.iter().find_map(|(turn, meant)| by_turn(&said[..end], turn, meant)) {
+        told.extend_from_slice(&said[end..]);
+        *lexemes = told;
+        return;
+    }
+    let told = told_by(&said, &[FIRST]);
+    let is_by_who_speaks = told.iter().any(|lexeme| ["i", "we", "you"].contains(&word_of(lexeme)));
+    if !is_same(&told, &said) && !is_by_who_speaks {
+        *lexemes = told;
+    }
+}
+
+/// "She need chair at her side": a chair.
+fn she_needs_one(lexemes: &mut Vec<Lexeme>) {
+    let found = (2..lexemes.len()).find(|at| {
+        let (noun, behind) = (&lexemes[*at..=*at], lexemes.get(at + 1..).unwrap_or_default());
+        matches!(word(lexemes, at - 2), "he" | "she")
+            && matches!(word(lexemes, at - 1), "need" | "needs" | "want" | "wants")
+            && category(noun).is_some()
+            && !word(lexemes, *at).ends_with('s')
+            && longest(behind, &WAYS).is_some()
+    });
+    if let Some(at) = found {
+        let article = word_at(&lexemes[at], "a");
+        lexemes.insert(at, article);
+    }
+}
+
+/// "Late night only, eleven o'clock": eleven at night.
+fn hour_of_night(lexemes: &mut Vec<Lexeme>) {
+    let Some(at) = (1..lexemes.len()).find(|at| word(lexemes, *at) == "oclock") else { return };
+    let hour = numbers::number(&lexemes[at - 1..]).map(|(hour, _)| hour);
+    let said = |asked: &str| lexemes[..at].iter().any(|lexeme| word_of(lexeme) == asked);
+    let half = match hour {
+        Some(hour) if (8.0..12.0).contains(&hour) && said("night") => "at night",
+        Some(hour) if (5.0..12.0).contains(&hour) && said("evening") => "in the evening",
+        _ => return,
+    };
+    let is_last = lexemes.get(at + 1).is_none_or(is_mark);
+    if is_last && !said("morning") && !said("not") {
+        let place = lexemes[at].clone();
+        lexemes.splice(at + 1..at + 1, words_at(&place, half).collect::<Vec<_>>());
+    }
 }
 
 /// "Me, I ...", "me I ...": I.
@@ -79,8 +155,10 @@ fn a_new_one(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::lexer::Lexeme;
     use super::super::super::lexer::rewritten;
-    use super::{me_is_i, without_own_state};
+    use super::{hour_of_night, me_is_i, she_needs_one, told_by, without_own_state};
+    use crate::language::edits::kin_turns::FIRST;
 
     #[test]
     fn who_speaks_is_spoken_of_plainly() {
@@ -98,6 +176,34 @@ mod tests {
             ("i am cold", "i am cold"),
             ("me and dmitri want a bench", "me and dmitri want a bench"),
             ("i am here, put a bench next to me", "i am here , put a bench next to me"),
+        ] {
+            assert_eq!(plain(said), meant, "{said}");
+        }
+    }
+
+    #[test]
+    fn what_would_be_misread_is_put_plainly() {
+        let plain = |said: &str| {
+            rewritten(said, |lexemes: &mut Vec<Lexeme>| {
+                she_needs_one(lexemes);
+                hour_of_night(lexemes);
+                *lexemes = told_by(lexemes, &[FIRST]);
+            })
+        };
+        for (said, meant) in [
+            (
+                "the museum is crying out for a bike rack, sling one next to it",
+                "put a bike rack next to the museum",
+            ),
+            ("fido is needing a kennel, it must stay beside him", "put a kennel beside fido"),
+            ("my little boy is scared of the orange lorry, so it'll have to go", "remove the orange lorry"),
+            ("traffic has no business on elm street, shut it", "close elm street"),
+            ("she need chair at her side", "she need a chair at her side"),
+            ("late night only, eleven oclock", "late night only , eleven oclock at night"),
+            // These say something else.
+            ("fido is needing a kennel", "fido is needing a kennel"),
+            ("make it eleven oclock", "make it eleven oclock"),
+            ("not night, eleven oclock in the morning", "not night , eleven oclock in the morning"),
         ] {
             assert_eq!(plain(said), meant, "{said}");
         }

@@ -8,8 +8,6 @@ pub(super) const WHOLE: &Turns = &[
     // What was brought, and is to be shown somewhere.
     ("the|our|a|an|my|some|two|three|this|that|- X have|has|just|had|- unloaded|delivered|brought|dropped|shipped|sent|ordered|donated|bought|carried|baked|built|lent|offered|left|received|produced|unpacked|supplied|imported|hauled|fetched in|off|round|over|by|us|- D B .|, so|and|- please|now|- show|put|place|set|stack|leave|drop|lay|stand|park|have|draw|add|arrange|pile|store them|it|those|these|him|her all|both|- W", "put D B W"),
     ("A , he|she|it is|are|- needing|needs|need|wanting|wants|want|lacking|lacks B . D C , please|- keep|put|place|set|leave|have|stand it|that|them|him|her right|just|directly|- R him|her|it|them", "put D C R A"),
-    ("customers|visitors|patrons|guests|regulars|people|staff|clients|users of|at|in|from the A B . D C alongside|beside|outside|by|near the shop|place|building|house|store|door would|could|might|will soon|quickly|- sort|solve|fix|help|do|settle that|this|it|them|matters", "put D C next to the A"),
-    ("customers|visitors|patrons|guests|regulars|people|staff|clients|users of|at|in|from A B . D C alongside|beside|outside|by|near the shop|place|building|house|store|door would|could|might|will soon|quickly|- sort|solve|fix|help|do|settle that|this|it|them|matters", "put D C next to A"),
     ("we|i|they need|have|want|plan|do|hold|are|am|will planning|having|doing|holding|hold|have|do|- a|an|some|the|our|- fire|rescue|safety|street|garden|birthday|big|small|summer|winter|- drill|rehearsal|exercise|practice|picnic|party|celebration|festival|ceremony|inspection . P", "P"),
 ];
 
@@ -27,7 +25,6 @@ pub(super) const PARTS: &Turns = &[
     // What goes.
     ("O make|let|have|get to|- disappear|vanish N", "O remove N"),
     ("O make|let|have|get N to disappear|vanish completely|now|please|-", "O remove N"),
-    ("my|our|the|his|her A is|are|was|gets|were so|very|really|too|- scared|afraid|frightened|terrified|sick|tired|jealous|wary of N , so|and|- itll|theyll|it|they|he|she|that|this|hell|shell will|must|has|have|needs|should|ought|- to|have|- to|- go|disappear|vanish|leave away|now|-", "remove N"),
     // All but some, by their heights.
     ("O remove|delete|fell|clear|scrap|ditch|erase all|every|- of|- the|- A except|but|save|bar for|- those|the|ones|any|- ones|- that|which|- are|is|- taller|higher|bigger|larger than M", "O remove all A shorter than M"),
     ("O remove|delete|fell|clear|scrap|ditch|erase all|every|- of|- the|- A except|but|save|bar for|- those|the|ones|any|- ones|- that|which|- are|is|- shorter|lower|smaller than M", "O remove all A taller than M"),
@@ -40,6 +37,8 @@ pub(super) const PARTS: &Turns = &[
     // Who looks where.
     ("O have|make|let|get A to|- gawp|gape|gawk|goggle|stare|peer|squint|leer|glare|ogle|glower|peek|glance|gaze|scowl|frown|grin|squinny|rubberneck straight|right|up|down|over|- at|towards|toward|into B", "O make A face B"),
     ("O make|arrange|do|have it|so|- that A she|he|it looks|faces|gazes|stares|turns to|at|towards|toward|- B", "O make A face B"),
+    // What a film is in need of.
+    ("for my|the|our|this|your X shot|scene|photo|picture|film|movie|video|trailer|poster|story|game|level|brochure|play|show ,|- i|we|id|wed want|need|would|like like|- D A", "put D A"),
     // The sky.
     ("Y , thats|that|which|its what|is|- what|exactly|just|- i|we id|wed|would|really|- need|want|fancy|miss|like|crave out|over|- there|here|now|today|tonight|-", "make it Y"),
     ("from|out the|of sky|heavens it|there|the|- must|should|shall|has|is|can to|- fall|come|pour|drop down|- Y now|today|please|-", "make it Y"),
@@ -47,9 +46,6 @@ pub(super) const PARTS: &Turns = &[
     // What a place lacks.
     ("O what A is|are|was really|badly|simply|just|truly|- crying|screaming|begging|dying|longing|calling|yearning|aching out|- for is|are|was D B", "O add D B"),
     ("what A is|are short|lacking|missing|needing|wanting|craving|lacks|needs|after of|- is|are|was D B R it|him|her|them", "put D B R A"),
-    ("the A is|are crying|screaming|begging|dying|gasping|longing|desperate|aching|yearning|calling|pleading out|- for D B , so|and|then|- please|just|- sling|put|set|place|add|stick|plonk|pop|bung|shove|build|stand|park|whack one|it|some|them right|just|directly|- R it|him|her|them|there", "put D B R the A"),
-    ("G is|are crying|screaming|begging|dying|gasping|longing|desperate|aching|yearning|calling|pleading out|- for D B , so|and|then|- please|just|- sling|put|set|place|add|stick|plonk|pop|bung|shove|build|stand|park|whack one|it|some|them right|just|directly|- R it|him|her|them|there", "put D B R G"),
-    ("G is|are|- needing|needs|need|wanting|wants|want|lacking|lacks|missing|misses|requiring|requires|deserves|craves|craving D B , it|he|she|that|which|they must|should|has|have|needs|need|shall|is|are|ought|can to|- please|- stay|stand|be|go|sit|lie|remain|live|come right|just|directly|close|- R it|him|her|them", "put D B R G"),
     ("for the|our|my A i|we am|are|would|- wish|want|need|like|wishing|wanting|needing|have|love for|- D B ,|- right|just|directly|close|very|- R him|her|it|them", "put D B R the A"),
     ("for A i|we am|are|would|- wish|want|need|like|wishing|wanting|needing|have|love for|- D B ,|- right|just|directly|close|very|- R him|her|it|them", "put D B R A"),
     ("it|- is|its very|so|too|really|quite|- hot|cold|warm|wet|windy|late|early|boring|empty|sunny today|now|here|tonight|outside , P", "P"),
@@ -93,4 +89,25 @@ pub(super) const PARTS: &Turns = &[
     ("P , i|we|it|that need|needs|want|wants|love|like|gives|sets|suits|fits|makes|am|are after|for|- the|a|some|my|our|- right|perfect|proper|spooky|gloomy|romantic|cosy|eerie|certain|special|- mood|atmosphere|ambience|feeling|feel|vibe|tone|drama|suspense|effect|backdrop", "P"),
     // Questions.
     ("who|what or|and what|who|which is|are|was A", "describe A"),
+];
+
+/// Turns of one sentence each that would be read as something else, or about something else.
+#[rustfmt::skip]
+pub(super) const FIRST: &Turns = &[
+    // What a place lacks, and who needs something, with "it" for the place and "him" for who needs it.
+    ("the A is|are crying|screaming|begging|dying|gasping|longing|desperate|aching|yearning|calling|pleading out|- for D B , so|and|then|- please|just|- sling|put|set|place|add|stick|plonk|pop|bung|shove|build|stand|park|whack one|it|some|them right|just|directly|- R it|him|her|them|there", "put D B R the A"),
+    ("G is|are crying|screaming|begging|dying|gasping|longing|desperate|aching|yearning|calling|pleading out|- for D B , so|and|then|- please|just|- sling|put|set|place|add|stick|plonk|pop|bung|shove|build|stand|park|whack one|it|some|them right|just|directly|- R it|him|her|them|there", "put D B R G"),
+    ("G is|are|- needing|needs|need|wanting|wants|want|lacking|lacks|missing|misses|requiring|requires|deserves|craves|craving D B , it|he|she|that|which|they must|should|has|have|needs|need|shall|is|are|ought|can to|- please|- stay|stand|be|go|sit|lie|remain|live|come right|just|directly|close|- R it|him|her|them", "put D B R G"),
+    // What somebody is afraid of.
+    ("my|our|the|his|her A is|are|was|gets|were so|very|really|too|- scared|afraid|frightened|terrified|sick|tired|jealous|wary of N , so|and|- itll|theyll|it|they|he|she|that|this|hell|shell will|must|has|have|needs|should|ought|- to|have|- to|- go|disappear|vanish|leave away|now|-", "remove N"),
+    // Streets.
+    ("cars|traffic|vehicles|lorries|drivers|trucks has|have no business|place|right|reason on|in|along A , so|and|- please|- close|shut|block|seal it|that|them off|down|up|-", "close A"),
+];
+
+/// As [`FIRST`], of all that is said.
+#[rustfmt::skip]
+pub(super) const FIRST_WHOLE: &Turns = &[
+    // What a place's people lack, and where it is to stand.
+    ("customers|visitors|patrons|guests|regulars|people|staff|clients|users of|at|in|from the A B . D C alongside|beside|outside|by|near the shop|place|building|house|store|door would|could|might|will soon|quickly|- sort|solve|fix|help|do|settle that|this|it|them|matters", "put D C next to the A"),
+    ("customers|visitors|patrons|guests|regulars|people|staff|clients|users of|at|in|from A B . D C alongside|beside|outside|by|near the shop|place|building|house|store|door would|could|might|will soon|quickly|- sort|solve|fix|help|do|settle that|this|it|them|matters", "put D C next to A"),
 ];

@@ -19,7 +19,7 @@ pub(super) fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     precautions::leave_out(lexemes);
-    kin_first::in_plain_words(lexemes, names);
+    kin_first::in_plain_words(words, lexemes, names);
     sky_come::in_plain_words(lexemes);
     sky_stated::in_plain_words(lexemes);
     talked::in_plain_words(lexemes);
