@@ -130,7 +130,10 @@ fn turned(lexemes: &[Lexeme]) -> Vec<Lexeme> {
 fn needed(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
     let (_, count) = names.exact(lexemes)?;
     let said = lexemes.get(count..last_mark(lexemes))?;
-    by_turn(said, "needs|need|wants|want|lacks|misses|wishes H W", "put a H W")
+    let turns = [("D A W", "put D A W"), ("H W", "put a H W")];
+    turns.into_iter().find_map(|(what, meant)| {
+        by_turn(said, &format!("needs|need|wants|want|lacks|misses|wishes {what}"), meant)
+    })
 }
 
 /// "Black car would look better in orange": the black car; none if an article stands there.

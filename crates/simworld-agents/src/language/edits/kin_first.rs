@@ -79,7 +79,7 @@ fn she_needs_one(lexemes: &mut Vec<Lexeme>) {
             && matches!(word(lexemes, at - 1), "need" | "needs" | "want" | "wants")
             && category(noun).is_some()
             && !word(lexemes, *at).ends_with('s')
-            && longest(behind, &WAYS).is_some()
+            && (longest(behind, &WAYS).is_some() || matches!(word(behind, 0), "at" | "by" | "on"))
     });
     if let Some(at) = found {
         let article = word_at(&lexemes[at], "a");
@@ -110,7 +110,8 @@ fn me_is_i(lexemes: &mut Vec<Lexeme>) {
         return;
     }
     let mark = 1 + usize::from(lexemes.get(1).is_some_and(|mark| mark.token == Token::Comma));
-    if matches!(word(lexemes, mark), "i" | "we" | "im") {
+    let wants = matches!(word(lexemes, mark + 1), "need" | "want" | "wish" | "like" | "would" | "am" | "are");
+    if matches!(word(lexemes, mark), "i" | "we") && wants {
         lexemes.drain(..mark);
     }
 }

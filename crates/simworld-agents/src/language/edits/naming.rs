@@ -178,7 +178,7 @@ impl Reader<'_> {
     /// Whether "and" stands here and behind it an order about something; "Stand and Deliver" is a name.
     fn goes_on_with_order(&self, at: usize, end: usize) -> bool {
         #[rustfmt::skip]
-        const ABOUT: &[&str] = &["it", "him", "her", "them", "the", "that", "this", "a", "an", "my", "our", "another"];
+        const ABOUT: &[&str] = &["it", "him", "her", "them", "the", "that", "this", "a", "an", "my", "our", "another", "two", "three", "four", "some", "all", "both", "every", "each", "one"];
         let Some(and) = longest_phrase(&self.lexemes[at..end], &["and", "and then", "then"]) else {
             return false;
         };
