@@ -94,7 +94,8 @@ fn told(words: &str, said: &[Lexeme], names: &Names<'_>, focus: &Focus) -> Vec<V
     for way in std::iter::once(&plain).chain(&with_the) {
         let turned = turned(way);
         // What "it" stood for may be left out, and what was spoken of before the sentence is not meant.
-        if !(focus.it.is_some() && points_back(&turned)) {
+        let is_open = focus.it.is_some() && points_back(&turned);
+        if !is_open && !is_same(&turned, way) {
             ways.push(turned);
         }
     }

@@ -40,7 +40,7 @@ pub(super) const PARTS: &Turns = &[
     // What a film is in need of.
     ("for my|the|our|this|your X shot|scene|photo|picture|film|movie|video|trailer|poster|story|game|level|brochure|play|show ,|- i|we|id|wed want|need|would|like like|- D A", "put D A"),
     // The sky.
-    ("Y , thats|that|which|its what|is|- what|exactly|just|- i|we id|wed|would|really|- need|want|fancy|miss|like|crave out|over|- there|here|now|today|tonight|-", "make it Y"),
+    ("Y , thats|that|which|its what|is|- what|exactly|just|- i|we id|wed|would|really|- need|want|fancy|crave out|over|- there|here|now|today|tonight|-", "make it Y"),
     ("from|out the|of sky|heavens it|there|the|- must|should|shall|has|is|can to|- fall|come|pour|drop down|- Y now|today|please|-", "make it Y"),
     ("i|we just|really|simply|so|always|do|- adore|love|like|enjoy it|- when|how|if the|some|- Y rolls|comes|drifts|creeps|falls|sets|moves|settles|descends|gathers in|down|over|up|- , so|- please|- lets|let|give us|me|- have|get it|that|some|one please|now|-", "make it Y"),
     // What a place lacks.
@@ -87,6 +87,8 @@ pub(super) const PARTS: &Turns = &[
     // Why a scene is to be so.
     ("P , i|we|it|that need|needs|want|wants|love|like|gives|sets|suits|fits|makes|am|are after|for|- the|a|some|my|our|- right|perfect|proper|spooky|gloomy|romantic|cosy|eerie|certain|special|- mood|atmosphere|ambience|feeling|feel|vibe|tone|drama|suspense|effect|backdrop for|of|in|to|at B", "P"),
     ("P , i|we|it|that need|needs|want|wants|love|like|gives|sets|suits|fits|makes|am|are after|for|- the|a|some|my|our|- right|perfect|proper|spooky|gloomy|romantic|cosy|eerie|certain|special|- mood|atmosphere|ambience|feeling|feel|vibe|tone|drama|suspense|effect|backdrop", "P"),
+    // That all is well.
+    ("no|oh|well|- no|- ,|- hang|hold|wait on|- ,|- leave|keep everything|all|things exactly|just|precisely|completely|- as|how|the it|they|way|that|everything stands|stand|is|are|it|was stands|is|are|-", "leave all the things as they are"),
     // Questions.
     ("who|what or|and what|who|which is|are|was A", "describe A"),
 ];

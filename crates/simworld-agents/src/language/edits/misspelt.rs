@@ -85,14 +85,15 @@ fn near(rest: &[Lexeme], name: &str) -> Option<(usize, Vec<String>)> {
     (short == 0 || distance == 1).then_some((distance, words))
 }
 
-/// Whether a word too short for other slips is another without one of its letters, and no noun by itself: "bn".
+/// Whether a word too short for other slips is another without its vowel: "bn".
 fn is_short_of_a_letter(said: &Lexeme, word: &str) -> bool {
     let own = word_of(said);
     let is_begun = own.chars().next() == word.chars().next();
     let is_one_less = own.chars().count() + 1 == word.chars().count();
-    let is_noun = super::super::lexicon::category(std::slice::from_ref(said)).is_some();
-    let is_short = (2..SHORTEST).contains(&own.chars().count());
-    is_short && is_begun && is_one_less && !is_noun && strsim::osa_distance(own, word) == 1
+    // With a vowel it may be a word of its own: "at", "by".
+    let has_vowel = own.contains(['a', 'e', 'i', 'o', 'u', 'y']);
+    let is_short = (2..SHORTEST).contains(&own.chars().count()) && !has_vowel;
+    is_short && is_begun && is_one_less && strsim::osa_distance(own, word) == 1
 }
 
 /// How many slips make one word of another; none if they are too many.

@@ -11,6 +11,7 @@ use super::super::lexicon::{category, is_animate, longest, longest_phrase};
 use super::super::names::Names;
 use super::super::phrases::Phrases;
 use super::forms::{word, word_at, words_at};
+use super::remarked::plain_noun;
 use super::told::ORDERS_ANYTHING;
 use super::words::{VERBS, WAYS};
 
@@ -18,7 +19,7 @@ use super::words::{VERBS, WAYS};
 const MOST_MARKS: usize = 3;
 /// Before who is told of.
 #[rustfmt::skip]
-const LEADS: &[&str] = &["oh", "well", "poor", "dear", "our", "old", "good", "as", "since", "because", "and", "but", "now", "look", "see", "lovely", "sweet", "little", "that", "my", "ah", "clearly", "apparently"];
+const LEADS: &[&str] = &["oh", "well", "poor", "dear", "our", "old", "good", "as", "since", "because", "and", "but", "now", "look", "see", "lovely", "sweet", "little", "ah", "clearly", "apparently"];
 /// By these something is asked for in what is told.
 #[rustfmt::skip]
 const ASKS: &Phrases = &Phrases::of(&["if", "unless", "until", "except", "instead", "i mean", "i meant", "scratch that", "no wait", "wait no", "correction", "undo", "never mind", "forget it", "please", "could you", "can you", "would you", "will you", "how about", "why not", "should", "must", "ought", "shall", "lets", "let us", "rather than", "only the",
@@ -54,38 +55,55 @@ pub(super) fn ways(words: &str, lexemes: &[Lexeme], names: &Names<'_>) -> Vec<Ve
         .take(MOST_MARKS)
         .filter_map(|mark| {
             let (who, name) = told_of(words, &lexemes[..mark], names)?;
-            with_name(&lexemes[mark + 1..], &name, who, names)
+            with_name(&lexemes[mark + 1..], &name, &who, names)
         })
         .collect()
 }
 
+/// Somebody of the scene: by his name who he is, and else nobody certain; how many words name him; and what stands for him.
+type Somebody = (Vec<EntityId>, usize, Vec<Lexeme>);
+
 /// Who of the scene is told of, and his name, if nobody else is and nothing is asked for.
-fn told_of(words: &str, told: &[Lexeme], names: &Names<'_>) -> Option<(EntityId, Vec<Lexeme>)> {
+fn told_of(words: &str, told: &[Lexeme], names: &Names<'_>) -> Option<(Vec<EntityId>, Vec<Lexeme>)> {
     let leads = |lexeme: &&Lexeme| is_mark(lexeme) || LEADS.contains(&word_of(lexeme));
     let from = told.iter().take_while(leads).count();
     let (who, count, name) = somebody(words, &told[from..], names)?;
     let rest = &told[from + count..];
     let asks = |at: usize| longest_phrase(&rest[at..], ASKS).is_some() || OTHERS.contains(&word(rest, at));
-    let is_other = |at: usize| somebody(words, &rest[at..], names).is_some_and(|(other, ..)| other != who);
+    let is_other = |at: usize| {
+        somebody(words, &rest[at..], names).is_some_and(|(other, ..)| other.is_empty() || other != who)
+    };
     let is_order = longest_phrase(told, ORDERS_ANYTHING).is_some()
         || from == 0 && longest(told, &VERBS).is_some_and(|(_, words)| words > count);
     let tells = rest.iter().any(|lexeme| !is_mark(lexeme));
     (tells && !is_order && !(0..rest.len()).any(|at| asks(at) || is_other(at))).then_some((who, name))
 }
 
-/// Somebody of the scene who is named here, by how many words, and the name: "Hana", "Hana's".
-fn somebody(words: &str, lexemes: &[Lexeme], names: &Names<'_>) -> Option<(EntityId, usize, Vec<Lexeme>)> {
+/// Who is named here: "Hana", "Hana's", "the dog".
+fn somebody(words: &str, lexemes: &[Lexeme], names: &Names<'_>) -> Option<Somebody> {
     let one = |said: &[Lexeme]| {
         let (ids, count) = names.exact(said)?;
-        let [id] = ids[..] else { return None };
-        let is_body = names.scene.entity(id).is_some_and(|entity| is_animate(entity.kind));
-        is_body.then_some((id, count))
+        (ids.len() == 1 && is_body(&ids, names)).then_some((ids, count))
     };
-    if let Some((id, count)) = one(lexemes) {
-        return Some((id, count, lexemes[..count].to_vec()));
+    if let Some((ids, count)) = one(lexemes) {
+        return Some((ids, count, lexemes[..count].to_vec()));
+    }
+    if let Some(count) = plain_noun(lexemes).filter(|count| is_body_of_a_sort(&lexemes[..*count])) {
+        return Some((Vec::new(), count, lexemes[..count].to_vec()));
     }
     let owner = vec![owner_at(words, lexemes.first()?)?];
-    one(&owner).filter(|(_, count)| *count == 1).map(|(id, _)| (id, 1, owner))
+    one(&owner).filter(|(_, count)| *count == 1).map(|(ids, _)| (ids, 1, owner))
+}
+
+/// Whether a noun phrase ends with a word for somebody: "the brown dog".
+fn is_body_of_a_sort(said: &[Lexeme]) -> bool {
+    let noun = (0..said.len()).find_map(|at| {
+        category(&said[at..]).filter(|(_, words)| at + words == said.len()).map(|(class, _)| class)
+    });
+    noun.is_some_and(|class| {
+        let kinds = class.kinds();
+        !kinds.is_empty() && kinds.iter().all(|kind| is_animate(*kind))
+    })
 }
 
 /// Whose something is, by the "'s" that is written: "Fay's".
@@ -98,7 +116,7 @@ pub(super) fn owner_at(words: &str, lexeme: &Lexeme) -> Option<Lexeme> {
 
 /// A request with the name in the place of the pronouns; none if it has none, names somebody else before them, or speaks of something else that was named
 /// before.
-fn with_name(order: &[Lexeme], name: &[Lexeme], who: EntityId, names: &Names<'_>) -> Option<Vec<Lexeme>> {
+fn with_name(order: &[Lexeme], name: &[Lexeme], who: &[EntityId], names: &Names<'_>) -> Option<Vec<Lexeme>> {
     let so = longest_phrase(order, SO).unwrap_or(0);
     let order = &order[so..];
     let (mut told, mut any) = (Vec::with_capacity(order.len() + name.len()), false);
@@ -106,7 +124,7 @@ fn with_name(order: &[Lexeme], name: &[Lexeme], who: EntityId, names: &Names<'_>
     while at < order.len() {
         let said = word(order, at);
         let is_other =
-            || names.exact(&order[at..]).is_some_and(|(ids, _)| ids != [who] && is_body(&ids, names));
+            || names.exact(&order[at..]).is_some_and(|(ids, _)| ids != who && is_body(&ids, names));
         if let Some(end) = at_side(order, at) {
             told.extend(words_at(&order[at], "next to"));
             told.extend_from_slice(name);
@@ -159,7 +177,7 @@ fn is_possessive(order: &[Lexeme], at: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::super::lexer::lex;
-    use super::{at_side, is_possessive, owner_at, points_back};
+    use super::{at_side, is_body_of_a_sort, is_possessive, owner_at, points_back};
 
     #[test]
     fn whose_something_is_is_written() {
@@ -179,6 +197,12 @@ mod tests {
         assert!(!is_whose("the tree nearest to her"));
         assert_eq!(at_side(&lex("at her side"), 0), Some(3));
         assert_eq!(at_side(&lex("at her bench"), 0), None);
+    }
+
+    #[test]
+    fn somebody_may_have_no_name() {
+        assert!(is_body_of_a_sort(&lex("the brown dog")));
+        assert!(!is_body_of_a_sort(&lex("the brown bench")));
     }
 
     #[test]
