@@ -99,8 +99,8 @@ fn hour_of_night(lexemes: &mut Vec<Lexeme>) {
     };
     let is_last = lexemes.get(at + 1).is_none_or(is_mark);
     if is_last && !said("morning") && !said("not") {
-        let place = lexemes[at].clone();
-        lexemes.splice(at + 1..at + 1, words_at(&place, half).collect::<Vec<_>>());
+        let (place, behind) = (lexemes[at].clone(), at + 1);
+        lexemes.splice(behind..behind, words_at(&place, half).collect::<Vec<_>>());
     }
 }
 
