@@ -17,6 +17,7 @@ mod edits_are_taken_back;
 mod edits_are_told_along;
 mod edits_are_verbs;
 mod edits_by_policy;
+mod edits_by_their_kin;
 mod edits_can_be_answered;
 mod edits_carry_their_loads;
 mod edits_common;

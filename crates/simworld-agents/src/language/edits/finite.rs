@@ -64,7 +64,7 @@ const BASES: &[&str] = &[
 const PASTS: &[&str] = &[
     "arose", "ate", "awoke", "became", "began", "bent", "bet", "bit", "bled", "blew", "bought", "broke", "brought", "built", "burnt", "came",
     "caught", "chose", "clung", "cost", "crept", "dealt", "did", "died", "drank", "drew", "drove", "dug", "dwelt", "fed", "fell", "felt", "fled",
-    "flew", "flung", "forbade", "forgave", "forgot", "fought", "froze", "gave", "got", "grew", "had", "heard", "held", "hid", "hung", "hurt", "kept",
+    "flew", "flung", "forbade", "forgave", "forgot", "fought", "found", "froze", "gave", "got", "grew", "had", "heard", "held", "hid", "hung", "hurt", "kept",
     "knelt", "knew", "laid", "leapt", "learnt", "led", "lent", "lost", "made", "meant", "met", "mistook", "paid", "proved", "quit", "ran", "rang",
     "rode", "rose", "said", "sang", "sank", "sat", "saw", "sent", "shone", "shook", "shot", "shrank", "slept", "slid", "slung", "smelt", "sold",
     "sought", "sowed", "spat", "sped", "spent", "spilt", "spoilt", "spoke", "sprang", "stank", "stole", "stood", "strode", "strove", "struck",

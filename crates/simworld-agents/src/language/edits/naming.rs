@@ -178,7 +178,7 @@ impl Reader<'_> {
     /// Whether "and" stands here and behind it an order about something; "Stand and Deliver" is a name.
     fn goes_on_with_order(&self, at: usize, end: usize) -> bool {
         #[rustfmt::skip]
-        const ABOUT: &[&str] = &["it", "him", "her", "them", "the", "that", "this", "a", "an", "my", "our", "another"];
+        const ABOUT: &[&str] = &["it", "him", "her", "them", "the", "that", "this", "a", "an", "my", "our", "another", "two", "three", "four", "some", "all", "both", "every", "each", "one"];
         let Some(and) = longest_phrase(&self.lexemes[at..end], &["and", "and then", "then"]) else {
             return false;
         };
@@ -187,7 +187,9 @@ impl Reader<'_> {
             return false;
         }
         self.order_at(next, end).is_some_and(|(_, words)| {
-            next + words < end && self.word(next + words).is_some_and(|word| ABOUT.contains(&word))
+            let what = next + words;
+            let is_sky = || longest(&self.lexemes[what..end], &super::words::SKIES).is_some();
+            what < end && (self.word(what).is_some_and(|word| ABOUT.contains(&word)) || is_sky())
         })
     }
 

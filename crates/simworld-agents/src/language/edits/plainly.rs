@@ -4,10 +4,10 @@ use super::super::lexer::Lexeme;
 use super::super::names::Names;
 use super::super::streets::StreetNames;
 use super::{
-    beforehand, breaks, but_me, casual, doings, doubted, facing, headings, hesitations, homophones, margins,
-    meant, narrowed, others, passing, periphrases, phrased, plain, precautions, presence, remarked, repairs,
-    respelt, restated, retold, rows, sells_both, sky_stated, slips, spared, spoken, talk, talked,
-    unusual_first, which, whole, withdrawn, wording,
+    beforehand, breaks, but_me, casual, doings, doubted, facing, headings, hesitations, homophones,
+    kin_first, margins, meant, narrowed, others, passing, periphrases, phrased, plain, precautions, presence,
+    remarked, repairs, respelt, restated, retold, rows, sells_both, sky_come, sky_stated, slips, spared,
+    spoken, talk, talked, unusual_first, which, whole, withdrawn, wording,
 };
 use crate::editing::Stock;
 
@@ -19,6 +19,8 @@ pub(super) fn put_plainly(
     (stock, streets): (&Stock, &StreetNames),
 ) {
     precautions::leave_out(lexemes);
+    kin_first::in_plain_words(words, lexemes, names);
+    sky_come::in_plain_words(lexemes);
     sky_stated::in_plain_words(lexemes);
     talked::in_plain_words(lexemes);
     restated::put_plainly(lexemes);

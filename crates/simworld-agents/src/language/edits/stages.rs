@@ -5,14 +5,16 @@ use super::heard::Ear;
 use super::memo::Memo;
 use super::parse::Reader;
 use super::resolve::Finder;
-use super::{Reading, anew, forms, lastly, placed, remarked, slips, statements, talked, unusual, view_of};
+use super::{
+    Reading, anew, forms, kin, lastly, placed, remarked, slips, statements, talked, unusual, view_of,
+};
 use crate::editing::EditError;
 
 /// A way to hear a sentence anew, from its words and what was read so far.
 type Stage<'a> = fn(&Ear<'a>, &[Lexeme], Result<Reading, EditError>) -> Result<Reading, EditError>;
 
 /// The ways in their order.
-pub(super) fn stages<'a>() -> [Stage<'a>; 8] {
+pub(super) fn stages<'a>() -> [Stage<'a>; 9] {
     [
         Ear::across_sentences,
         Ear::in_other_words,
@@ -21,6 +23,7 @@ pub(super) fn stages<'a>() -> [Stage<'a>; 8] {
         Ear::told_unusually,
         Ear::without_statements,
         Ear::talked,
+        Ear::by_their_kin,
         Ear::with_what_is_named,
     ]
 }
@@ -181,6 +184,13 @@ impl Ear<'_> {
             read = stage(self, &plainest, read);
         }
         read
+    }
+
+    /// As [`Self::in_other_words`], by turns of phrase like those that are known, and by who is told of.
+    fn by_their_kin(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
+        let Self { words, stock, focus, .. } = *self;
+        let names = self.names(heard);
+        self.first_granted(kin::ways(words, heard, &names, stock, focus), read)
     }
 
     /// "The windmill looks shabby, paint it white": that there is no windmill, where nothing is there that "it" could stand for.

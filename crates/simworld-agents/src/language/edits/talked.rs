@@ -105,7 +105,7 @@ fn gone_in_turn(lexemes: &mut Vec<Lexeme>) {
 }
 
 /// Words that are put otherwise wherever they stand.
-fn reworded(lexemes: &[Lexeme]) -> Vec<Lexeme> {
+pub(super) fn reworded(lexemes: &[Lexeme]) -> Vec<Lexeme> {
     let mut plain = lexemes.to_vec();
     turned_round(&mut plain);
     in_a_row(&mut plain);

@@ -1,0 +1,208 @@
+//! Turns of phrase by their kin: who is told of whatever he does, skies among other requests, what is kept away from something, what looks good in a
+//! colour, and what who learns the language says: what must come of them, and what must not be read so.
+
+use crate::city::City;
+use crate::edits_common::{Asked, Verdict, verdict};
+
+/// What must be true of each sentence, in the notation of the sets.
+fn come_to(city: &str, said: &[(&str, &str)]) {
+    let city = City::read(city);
+    let wrong: Vec<String> = said
+        .iter()
+        .filter_map(|(words, meaning)| {
+            let asked = Asked {
+                set: "kin",
+                family: "kin".to_owned(),
+                words: (*words).to_owned(),
+                meaning: (*meaning).to_owned(),
+            };
+            match verdict(&city, &asked) {
+                Verdict::Right => None,
+                Verdict::WrongEdit(why) | Verdict::WrongAnswer(why) => Some(format!("{words}: {why}")),
+            }
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn who_is_told_of_is_meant_whatever_he_does() {
+    come_to(
+        "campus",
+        &[
+            (
+                "Hana posts a lot of cards; put a letter box within five metres of her.",
+                "add letter_box within hana 5",
+            ),
+            (
+                "Hana watches birds, so stand a bird bath left of the tree nearest to her.",
+                "add bird_bath left_of birch",
+            ),
+            ("Hana parks wherever she likes; put a cone near her.", "add cone near hana"),
+            ("Poor Hana's all on her own, chuck a dog in beside her", "add dog next_to hana"),
+        ],
+    );
+    come_to(
+        "quarter",
+        &[
+            (
+                "Ada fancies a lie-down; a deck chair right next to her would be lovely.",
+                "add deck_chair next_to ada",
+            ),
+            ("Ada she is thirsty, give drinking fountain near to her", "add drinking_fountain near ada"),
+        ],
+    );
+    come_to(
+        "harbour",
+        &[
+            (
+                "Copy the street lamp to the north of Anna, it is far too dark where she stands.",
+                "copy lamp north_of anna",
+            ),
+            ("Anna benches all her dates; put a cone near her.", "add cone near anna"),
+        ],
+    );
+    come_to(
+        "oldtown",
+        &[("Well, Bruno shouldn't be over there; he belongs beside Eve.", "move bruno next_to eve")],
+    );
+}
+
+#[test]
+fn weather_is_let_come_among_other_requests() {
+    come_to(
+        "harbour",
+        &[
+            (
+                "Exchange Anna and Ben, call the dog Captain, and let fog roll in.",
+                "swap anna ben + name rex 'Captain' + weather fog",
+            ),
+            ("Give me a foggy dawn over the water.", "weather fog & hour 6"),
+            ("Bucketing down, that's what I need out there.", "weather rain"),
+            ("From the sky it must fall rain now.", "weather rain"),
+            ("I just adore it when the fog rolls in, let's have it", "weather fog"),
+        ],
+    );
+    come_to(
+        "quarter",
+        &[(
+            "Remove the Kiosk, add a food cart next to the fountain and let fog roll in.",
+            "remove kiosk + add food_cart next_to fountain + weather fog",
+        )],
+    );
+    come_to(
+        "oldtown",
+        &[
+            (
+                "Let's have a clear sky at noon, and a parasol near the red chair against the glare.",
+                "weather clear & hour 12 + add parasol near chair_b",
+            ),
+            (
+                "Make it a rainy night, I need the right mood for the murder mystery.",
+                "weather rain & hour 23",
+            ),
+        ],
+    );
+    come_to("campus", &[("I'd like rain and noon light at the same time.", "weather rain & hour 12")]);
+}
+
+#[test]
+fn remarks_of_strangers_are_left_out_and_what_they_brought_is_put() {
+    come_to(
+        "campus",
+        &[("Shrink the statue to half its size; the donors found it a little pompous.", "scale statue 0.5")],
+    );
+    come_to(
+        "oldtown",
+        &[(
+            "The crew unloaded eleven cardboard boxes; show them near the van.",
+            "add cardboard_box 11 near van",
+        )],
+    );
+}
+
+#[test]
+fn what_is_kept_away_goes_and_is_painted() {
+    come_to(
+        "harbour",
+        &[
+            (
+                "Light a campfire, but keep it at least 25 metres away from the diner.",
+                "add campfire beyond diner 25",
+            ),
+            ("The bus would look dead good in green, wouldn't it? Go on then.", "paint bus green"),
+            ("Me want small dog close to Anna.", "add small_dog near anna"),
+            ("Museum has no bicycle outside, please to put one in front.", "add bicycle in_front_of museum"),
+        ],
+    );
+    come_to(
+        "quarter",
+        &[
+            ("I reckon the postbox would look ace in purple, so do it.", "paint postbox purple"),
+            ("The red car, can you make that it is black?", "paint car_red black"),
+            ("Kindly make to disappear the chair.", "remove chair"),
+            ("Add a wheelie bn near the Old Bakry.", "add wheelie_bin near bakery"),
+            ("A wee dog by the postbox wouldn't go amiss.", "add small_dog|dog next_to postbox"),
+            ("the fountain needs a twin beside the kiosk", "copy fountain next_to kiosk"),
+            ("Remove all oaks except those taller than 10 m.", "remove oak_1 oak_3"),
+        ],
+    );
+    come_to(
+        "campus",
+        &[
+            ("Black car would look better when it is orange, you do it please.", "paint car_2 orange"),
+            ("Please you make one picnic table at side of the statue.", "add picnic_table next_to statue"),
+            ("Fido is needing a kennel, it must stay beside him.", "add doghouse next_to fido"),
+            (
+                "Fido's dying to lie down right by the hydrant, so plonk him there.",
+                "move fido next_to hydrant",
+            ),
+        ],
+    );
+    come_to(
+        "oldtown",
+        &[
+            ("Have Eve gawp at the van for a change.", "face eve van"),
+            ("Set the taxi on top of the taxi itself.", "! impossible"),
+            ("Would be nice if the white truck became orange.", "paint van orange"),
+            ("Who or what is Spot 7?", "describe robot"),
+            ("Me, I am cold, so please one campfire close to Eve.", "add campfire near eve"),
+        ],
+    );
+}
+
+#[test]
+fn nothing_is_done_where_nothing_is_asked_or_decided() {
+    leave(
+        "campus",
+        &[
+            // Nothing says which thing "it" is.
+            "Hana frobnicates; put it near her.",
+            "Hana frobnicates.",
+        ],
+    );
+    leave(
+        "harbour",
+        &[
+            "Anna's mother frobnicates; put a cone near her sister.",
+            "I don't think the bus would look good in green.",
+            "In my country is always a flagpole close to the museum.",
+            "The crew unloaded eleven cardboard boxes.",
+        ],
+    );
+}
+
+/// That no sentence changes anything.
+fn leave(city: &str, said: &[&str]) {
+    let city = City::read(city);
+    for words in said {
+        let asked = Asked {
+            set: "kin",
+            family: "kin".to_owned(),
+            words: (*words).to_owned(),
+            meaning: String::new(),
+        };
+        let came = verdict(&city, &asked);
+        assert!(!matches!(came, Verdict::WrongEdit(_)), "{words}: {came:?}");
+    }
+}
