@@ -201,7 +201,10 @@ fn are_one(hits: &[Hit], stock: &Stock) -> bool {
         called.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end().to_owned()
     };
     let first = hits.first().map(stem);
-    let is_so = |hit: &Hit| Some(stem(hit)) == first && stem(hit) != hit.name.replace('_', " ");
+    // "A grand piano" is none of the buildings that are grand.
+    let fits = |hit: &Hit| hit.is_whole || hit.because.iter().any(|(_, by)| *by == Matched::Meaning);
+    let is_so =
+        |hit: &Hit| fits(hit) && Some(stem(hit)) == first && stem(hit) != hit.name.replace('_', " ");
     hits.len() > 1 && hits.iter().all(is_so)
 }
 
