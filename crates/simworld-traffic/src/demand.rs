@@ -91,7 +91,7 @@ pub enum TripEnd {
     Arrived,
     /// Somebody took it out.
     Removed,
-    /// What was left of its way was closed, and there was no other.
+    /// What was left of its way was closed, and there was no other; or it left the map, since no way led on to its goal from where it was.
     NoWay,
     /// It was parked at the kerb.
     Parked,

@@ -208,7 +208,7 @@ impl VehicleManager {
         let (true, Some(here), Some(goal)) = (is_shut, legs.get(ahead), rest.last()) else { return false };
         let Some(mut around) = self.closures.quickest(tracks, *here, *goal) else { return false };
         around.0.splice(0..0, legs[..ahead].iter().copied());
-        let route = self.add_route(around);
+        let route = self.add_route_for(path.route, around);
         let (_, paths) = self.both_mut(tracks, track);
         (paths[rank].route, paths[rank].leg) = (route, 0);
         true

@@ -28,6 +28,15 @@ impl VehicleManager {
         (self.routes.len() - 1) as u32
     }
 
+    /// Keeps a route in the place of another, and that it leads off the map, if that one did.
+    pub(super) fn add_route_for(&mut self, before: u32, route: Route) -> u32 {
+        let route = self.add_route(route);
+        if self.off.binary_search(&before).is_ok() {
+            self.off.push(route);
+        }
+        route
+    }
+
     /// The last leg of a route.
     pub(crate) fn last_leg(&self, route: u32) -> Option<Leg> {
         self.routes.get(route as usize)?.0.last().copied()
@@ -108,8 +117,11 @@ impl VehicleManager {
             return Some(*departure);
         }
         let route = self.closures.quickest(tracks, first, last)?;
-        let known = self.routes.iter().rposition(|known| *known == route);
-        let route = known.map_or_else(|| self.add_route(route), |index| index as u32);
+        // Who leaves the map by the same route wanted to go elsewhere.
+        let is_same =
+            |index: &u32| self.routes[*index as usize] == route && self.off.binary_search(index).is_err();
+        let known = (0..self.routes.len() as u32).rev().find(is_same);
+        let route = known.unwrap_or_else(|| self.add_route(route));
         Some(Departure { route, ..*departure })
     }
 

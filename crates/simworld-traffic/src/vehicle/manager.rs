@@ -141,6 +141,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) streams: Stream,
     pub(crate) at: Moment,
     pub(crate) routes: &'a [Route],
+    /// Those of them that lead off the map, ascending.
+    pub(crate) off: &'a [u32],
     pub(crate) junctions: &'a Junctions,
     pub(crate) storage: &'a Storage,
     /// Those whose rear is on a way that they hold beside another.
@@ -225,6 +227,8 @@ pub(crate) struct VehicleManager {
     /// The track of each vehicle by its number; [`NONE`] for numbers that nobody has.
     pub(super) whereabouts: Tally,
     pub(super) routes: Vec<Route>,
+    /// Routes that lead off the map, since nothing leads where their drivers wanted to go: their places in the list, ascending.
+    pub(super) off: Vec<u32>,
     /// Those in a lock who may enter their junction without room behind it, ascending.
     pub(super) passes: Vec<u32>,
     /// What is closed.
@@ -301,6 +305,7 @@ impl VehicleManager {
             streams,
             at,
             routes: &self.routes,
+            off: &self.off,
             junctions: &self.junctions,
             storage: &self.storage,
             trails: &self.trails,

@@ -296,8 +296,12 @@ impl Part {
         }
         scene.whereabouts.set(vehicle.id as usize, NONE);
         let now = scene.at.now + scene.at.dt;
-        self.work.ended.push(trip(scene.tracks, scene.config, track, (vehicle, path), TripEnd::Arrived, now));
-        self.work.counters.arrived += 1;
+        // Who left the map since nothing led where he wanted to go has not arrived.
+        let is_off = scene.off.binary_search(&path.route).is_ok();
+        let end = if is_off { TripEnd::NoWay } else { TripEnd::Arrived };
+        self.work.ended.push(trip(scene.tracks, scene.config, track, (vehicle, path), end, now));
+        self.work.counters.arrived += u64::from(!is_off);
+        self.work.counters.removed += u64::from(is_off);
     }
 
     /// From a lane onto the way that it holds.

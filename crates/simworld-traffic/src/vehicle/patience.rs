@@ -57,21 +57,26 @@ impl VehicleManager {
         Some((*legs.get((path.leg as usize).checked_sub(1)?)?, *legs.get(path.leg as usize)?))
     }
 
-    /// Lets the first of a lane take a way from which its goal is reached by nothing, and leave where that ends. What is closed is no
-    /// matter: it may be opened.
+    /// Lets the first of a lane take a way from which its goal is reached by nothing, and leave where that ends, without having
+    /// arrived. What is closed is no matter: it may be opened.
     fn leave_by(&mut self, tracks: &Tracks, lane: Track, way: u32, goal: Leg) -> bool {
         let after = Leg::of(&tracks.network, LaneId(tracks.lane_after(way as usize)));
         let is_open = !self.closures.bars(tracks, way as usize);
         let Some(off) = way_off(tracks, after, goal).filter(|_| is_open) else { return false };
         self.go_by(tracks, (lane, 0), way, Some(off));
+        let route = self.paths(tracks, lane)[0].route;
+        if self.off.last() != Some(&route) {
+            self.off.push(route);
+        }
         true
     }
 
     /// Sends a vehicle of a lane by a way from it, and on by a route from there.
     fn go_by(&mut self, tracks: &Tracks, (lane, rank): (Track, usize), way: u32, route: Option<Route>) {
+        let before = self.paths(tracks, lane)[rank].route;
         let route = route.map(|mut rest| {
             rest.0.insert(0, Leg::of(&tracks.network, LaneId(lane)));
-            self.add_route(rest)
+            self.add_route_for(before, rest)
         });
         let (queue, paths) = self.both_mut(tracks, lane);
         queue[rank].next = way;
@@ -85,5 +90,88 @@ impl Vehicle {
     /// Whether, first in its lane, it has waited long enough for a gap to a lane that leads on.
     pub(super) fn is_stuck(&self) -> bool {
         self.next == NONE && self.stood >= PATIENCE && self.shift == 0.0 && self.halt.is_infinite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use simworld_core::geometry::Point2;
+    use simworld_core::id::RoadId;
+    use simworld_core::net::{
+        Alone, CrossSection, LaneDirection, NetworkConfig, RoadNetwork, Street, StreetPlan,
+    };
+    use simworld_core::seed::Seed;
+
+    use super::super::clock::Moment;
+    use super::super::manager::{Path, Sight};
+    use super::*;
+    use crate::{TrafficConfig, TripEnd};
+
+    fn leg(road: u32) -> Leg {
+        Leg::new(RoadId(road), LaneDirection::Forward)
+    }
+
+    /// A square of streets, and behind it two of one way that lead off the map, of which the first has this number.
+    fn with_a_way_off() -> (Tracks, TrafficConfig, u32) {
+        let mut plan = StreetPlan::grid(2, 2, 100.0);
+        let out = plan.add_section(CrossSection::two_way(1, 0));
+        let (first, end) = (plan.streets.len() as u32, plan.nodes.len());
+        plan.nodes.extend([Point2::new(-100.0, 0.0), Point2::new(-200.0, 0.0)]);
+        for (from, to) in [(0, end), (end, end + 1)] {
+            plan.streets.push(Street { section: out, ..Street::simple(from, to) });
+        }
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig::default();
+        (Tracks::new(Arc::new(network), &config), config, first)
+    }
+
+    /// How the trip of a car ends that comes to the first street off the map, and the counts; its goal is behind it or at the end of that.
+    fn end_of(is_lost: bool) -> (Option<TripEnd>, Counters) {
+        let (tracks, config, first) = with_a_way_off();
+        let mut vehicles = VehicleManager::new(&tracks);
+        let lane = tracks.network.roads[first as usize].forward[0];
+        let route = vehicles.add_route(Route(vec![leg(first), leg(first + 1)]));
+        let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 0, 50.0);
+        vehicles.whereabouts.push(lane.0);
+        vehicles.storage.add(lane.0, &car, &config);
+        vehicles.push(&tracks, lane.0, car, Path::new(lane.0, route, 0.0, 0.0));
+        let way = tracks.network.lanes[lane.index()].outgoing[0];
+        vehicles.go_by(&tracks, (lane.0, 0), way.0, None);
+        if is_lost {
+            assert!(vehicles.leave_by(&tracks, lane.0, way.0, leg(0)), "nothing leads back");
+        }
+        let zeros = vec![0; tracks.network.crossings.len()];
+        let sight = Sight { aspects: &[], shown: &[], walkers: &zeros, waiting: &zeros, obstacles: &[] };
+        let mut counters = Counters::default();
+        for step in 0..600 {
+            let at = Moment { now: step as f64 * 0.1, dt: 0.1, step };
+            vehicles.step(&tracks, &config, Seed(1).stream("cars"), sight, at, &mut counters, &Alone);
+            if let [trip] = vehicles.ended[..] {
+                return (Some(trip.end), counters);
+            }
+        }
+        (None, counters)
+    }
+
+    #[test]
+    fn who_leaves_the_map_for_want_of_a_way_has_not_arrived() {
+        let (end, counters) = end_of(true);
+        assert_eq!((end, counters.arrived, counters.removed), (Some(TripEnd::NoWay), 0, 1));
+        let (end, counters) = end_of(false);
+        assert_eq!((end, counters.arrived, counters.removed), (Some(TripEnd::Arrived), 1, 0));
+    }
+
+    #[test]
+    fn a_route_in_the_place_of_one_off_the_map_leads_off_it_too() {
+        let (tracks, _, first) = with_a_way_off();
+        let mut vehicles = VehicleManager::new(&tracks);
+        let route = || Route(vec![leg(first), leg(first + 1)]);
+        let own = vehicles.add_route(route());
+        let lost = vehicles.add_route_for(own, route());
+        vehicles.off.push(lost);
+        let again = vehicles.add_route_for(1, route());
+        assert_eq!((own, vehicles.off), (0, vec![1, again]));
     }
 }

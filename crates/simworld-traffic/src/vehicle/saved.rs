@@ -23,6 +23,8 @@ impl VehicleManager {
             && self.permits_fit()
             && self.whereabouts.iter().all(|track| track == NONE || (track as usize) < tracks.count())
             && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
+            && self.off.is_sorted()
+            && self.off.last().is_none_or(|route| (*route as usize) < self.routes.len())
             && self.passes.is_sorted()
             && self.closures.fits(tracks)
             && self.halts.fits(tracks, count)
