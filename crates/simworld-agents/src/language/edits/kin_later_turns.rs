@@ -34,7 +34,7 @@ pub(super) const FIRST_WHOLE: &Turns = &[
 #[rustfmt::skip]
 pub(super) const WHOLE: &Turns = &[
     // What is given, and is meant to be put somewhere instead.
-    ("P give|hand|get|bring|lend|offer|pass|buy|fetch A D B ,|- or|no|well|- i|we|- mean|meant|rather|say ,|- put|place|set|stand|leave|lay|add|stick one|it|that right|just|directly|- R him|her|it|them", "P put D B R A"),
+    ("P give|hand|get|bring|lend|offer|pass|buy|fetch A D B ,|- or|no|well|- i|we|- mean|meant|rather|say|- ,|- put|place|set|stand|leave|lay|add|stick one|it|that right|just|directly|- R him|her|it|them", "P put D B R A"),
     // Who learns the language, and what he likes better.
     ("me|us|- ,|- i|we like|prefer|love|find|want it|this|- much|far|- more|better|most|best|nicer|prettier|- when|if N has|had|is|was|were|gets|got|wears|wore|shows painted|- in|- the|a|- colour|color|- K ,|. so|and|- please|- you|- please|- change|make|do|fix|arrange|paint it|that|this to|- so|- ,|- please|-", "paint N K"),
     // Who wants what, and which of the two is let stand somewhere.
