@@ -172,6 +172,108 @@ fn what_is_kept_away_goes_and_is_painted() {
 }
 
 #[test]
+fn what_two_more_sets_left_comes_to_the_same_as_its_kin() {
+    come_to(
+        "harbour",
+        &[
+            (
+                "We shoot at dawn: I want fog, and a man and a woman near the lamp.",
+                "weather fog & hour 6 + add man near lamp + add woman near lamp",
+            ),
+            (
+                "We film at noon: we need rain, and a dog near the pine.",
+                "weather rain & hour 12 + add any dog near pine",
+            ),
+            ("Put a doghouse next to the animal that is close to the cone.", "add doghouse next_to rex"),
+            (
+                "It would be very kind if one garbage truck come and stay near from the hydrant.",
+                "add garbage_truck near hydrant",
+            ),
+            (
+                "Rex must be bored all on his own, get him a small dog right by his side.",
+                "add small_dog next_to rex",
+            ),
+            (
+                "Anna must be so tired, bring her a deck chair right beside her.",
+                "add deck_chair next_to anna",
+            ),
+            ("Paint the sailing boat green.", "! not found ~ boat"),
+            ("Remove the sailing boat.", "! not found ~ boat"),
+            ("Let's have the sun just coming up, you know, dawn.", "hour 6"),
+            ("We'd like the sun going down.", "hour 20"),
+            ("Add a grand piano beside the mailbox.", "! unknown thing ~ piano"),
+        ],
+    );
+    come_to(
+        "oldtown",
+        &[
+            ("Let fog roll in over the square.", "weather fog"),
+            ("Let the snow fall over the old town.", "weather snow"),
+            (
+                "Dmitri looks knackered, get the poor fellow an armchair right beside him.",
+                "add armchair next_to dmitri",
+            ),
+            ("A trio of tourists should gather around the traffic light.", "add tourist 3 near light"),
+            ("Bruno wouldn't say no to a doghouse at his side.", "add doghouse next_to bruno"),
+            ("Eve would never refuse a deck chair beside her.", "add deck_chair next_to eve"),
+            (
+                "Me, I like it more when the taxi has the colour green. You change it, please?",
+                "paint taxi green",
+            ),
+            ("The taxi would look a million times better in pink.", "paint taxi pink"),
+        ],
+    );
+    come_to(
+        "campus",
+        &[
+            (
+                "Make it rain and give Gus an umbrella - I mean, put one right beside him.",
+                "weather rain + add umbrella next_to gus",
+            ),
+            ("I reckon the red scooter would look miles better in white.", "paint scooter white"),
+            ("Pu a barbeqe besde the hegde", "add barbecue next_to hedge"),
+            (
+                "There ought to be a stone bench behind the place where students buy their soup.",
+                "add stone_bench behind canteen",
+            ),
+            (
+                "Put a bench behind the building where the locals usually get their salad.",
+                "add any bench behind canteen",
+            ),
+            (
+                "I'd like a solar panel on the roof of Curie Lab, just the one to begin with.",
+                "add solar_panel on_top_of lab",
+            ),
+        ],
+    );
+    come_to(
+        "quarter",
+        &[
+            ("The red bench would look smashing in purple, so go for it.", "paint bench_red purple"),
+            ("Have a jogger pause near the cone, just for scale.", "add jogger near cone"),
+            (
+                "A student wants shade, so let one stand near the lime tree closest to the statue.",
+                "add student near lime_2",
+            ),
+            ("Ada is needing a large dog who sits by her.", "add large_dog next_to ada"),
+        ],
+    );
+}
+
+#[test]
+fn what_is_like_them_and_asks_for_nothing_changes_nothing() {
+    leave(
+        "quarter",
+        &[
+            "I don't think the red bench would look smashing in purple.",
+            "Ada would refuse a large dog at her side.",
+            "It would be bad if a dog came and sat near Ada.",
+        ],
+    );
+    leave("oldtown", &["I like it more when the taxi has the colour green."]);
+}
+
+#[test]
 fn nothing_is_done_where_nothing_is_asked_or_decided() {
     leave(
         "campus",

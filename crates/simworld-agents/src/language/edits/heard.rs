@@ -16,8 +16,8 @@ use super::stages::stages;
 use super::wish::Wish;
 use super::words::{WAYS, Way};
 use super::{
-    Focus, Reading, chatter, dress_new, gone_by_name, gone_once, made_once, nth, paint_at_once, shades,
-    slips, statements, texts, view_of,
+    Focus, Reading, chatter, dress_new, gone_by_name, gone_once, made_once, named_in_full, nth,
+    paint_at_once, shades, slips, statements, texts, view_of,
 };
 use crate::editing::{EditError, Stock};
 
@@ -61,6 +61,9 @@ pub(crate) fn read(
             fragment: String::new(),
             hint: "say where it is to go".to_owned(),
         }),
+        Err(EditError::NotFound { wanted, near }) => {
+            Err(EditError::NotFound { wanted: named_in_full::named(wanted, &heard, stock), near })
+        }
         read => read,
     }
 }

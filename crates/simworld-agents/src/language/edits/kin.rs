@@ -14,7 +14,7 @@ use super::kin_turns::{PARTS, WHOLE};
 use super::retold::{by_turn, last_mark, told_by};
 use super::statements::{clauses, rest_of};
 use super::unusual_first::points_back;
-use super::{Focus, sky_come, slips, talked, told_of};
+use super::{Focus, kin_later, sky_come, slips, talked, told_of};
 use crate::editing::Stock;
 
 /// Words in the place of others that say the same.
@@ -32,7 +32,7 @@ const TAILS: &Phrases = &Phrases::of(&["for a change", "for once", "against the 
 /// Parts that are sayings, whole.
 #[rustfmt::skip]
 const CODAS: &Phrases = &Phrases::of(&["wouldnt it", "wouldnt they", "wouldnt he", "wouldnt she", "go on then", "go on", "so do it", "so do it please", "so please do it", "do it please", "you do it please", "you do it", "so you do it", "so go ahead", "go ahead", "so go for it", "go for it", "so get on with it", "get on with it", "it would be good", "that would be good",
-    "it would be nice", "that would be nice", "it would be great", "that would be great", "it would be lovely", "that would be lovely", "the band starts soon", "ta", "innit", "so why not", "so chop chop", "so get to it", "what are you waiting for"]);
+    "it would be nice", "that would be nice", "it would be great", "that would be great", "it would be lovely", "that would be lovely", "the band starts soon", "ta", "innit", "so why not", "so chop chop", "so get to it", "what are you waiting for", "just for scale", "for scale", "for size", "for comparison", "just for comparison", "for perspective", "just for fun", "just for show", "just for effect", "for effect", "just for the look of it", "for the look of it", "just for a laugh", "just because", "just so we see how big it is", "for a sense of scale"]);
 /// These begin parts that are remarks.
 #[rustfmt::skip]
 const REMARKS: &Phrases = &Phrases::of(&["the poor thing", "poor thing", "the poor dear", "poor dear", "the poor man", "the poor woman", "the poor soul", "poor soul", "the poor girl", "the poor boy", "the poor chap", "poor chap", "the poor love", "this i have said", "i have said this", "i have said it", "ive said this", "ive said it", "i said it already", "i said this already", "i already said", "i have already said", "ive already said", "this i said",
@@ -100,10 +100,12 @@ fn told(words: &str, said: &[Lexeme], names: &Names<'_>, focus: &Focus) -> Vec<V
         }
     }
     ways.extend(sky_come::asked_for(&plain));
+    ways.extend(kin_later::ways(&plain, names, focus.it.is_some()));
     // What is told of somebody is left as it was said, for whose it is is known by how it was written.
-    for way in told_of::ways(words, said, names) {
+    let told = kin_later::with_pronouns(said, names);
+    for way in told_of::ways(words, &told, names) {
         let plain = reworded(words, &way, names);
-        ways.extend(needed(&plain, names));
+        ways.extend(needed(&plain, names).or_else(|| given(&plain, names)));
         ways.push(way);
         ways.push(turned(&plain));
         ways.push(plain);
@@ -135,6 +137,17 @@ fn needed(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
     turns.into_iter().find_map(|(what, meant)| {
         by_turn(said, &format!("needs|need|wants|want|lacks|misses|wishes {what}"), meant)
     })
+}
+
+/// "Get Rex a small dog right next to Rex": a small dog is to be put there.
+fn given(lexemes: &[Lexeme], names: &Names<'_>) -> Option<Vec<Lexeme>> {
+    const GIVE: &[&str] = &["get", "give", "bring", "buy", "fetch", "find", "lend", "hand", "grab"];
+    let lead = lexemes.iter().take_while(|lexeme| matches!(word_of(lexeme), "please" | "just")).count();
+    let whom = lexemes.get(lead + 1..).filter(|_| GIVE.contains(&word(lexemes, lead)))?;
+    let (who, count) = names.exact(whom)?;
+    let said = whom.get(count..last_mark(whom))?;
+    let at_whom = said.len().checked_sub(count).and_then(|from| names.exact(&said[from..]));
+    at_whom.filter(|(others, _)| *others == who).and_then(|_| by_turn(said, "D A W", "put D A W"))
 }
 
 /// "Black car would look better in orange": the black car; none if an article stands there.

@@ -8,6 +8,7 @@ use super::super::numbers;
 use super::super::phrases::Phrases;
 use super::forms::{is_same, word, word_at, words_at};
 use super::kin::with_verb;
+use super::kin_later;
 use super::kin_turns::{FIRST, FIRST_WHOLE};
 use super::retold::{by_turn, last_mark, told_by};
 use super::words::{VERBS, WAYS};
@@ -43,6 +44,7 @@ const NOBODY: &[&str] = &[
 
 /// Puts it plainly.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+    kin_later::in_plain_words(lexemes, names);
     me_is_i(lexemes);
     without_own_state(lexemes);
     a_new_one(lexemes, names);

@@ -8,6 +8,7 @@ use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::names::Names;
 use super::super::numbers;
 use super::super::phrases::Phrases;
+use super::buyers;
 use super::follow::species;
 use super::forms::{word, word_at, words_at};
 use super::words::{VERBS, Verb, WAYS};
@@ -335,15 +336,19 @@ fn offers(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
         let is_place = is_led && PLACES.contains(&noun) && !is_name();
         let behind = &lexemes[at + 1..];
         let with = || longest_phrase(behind, WITH).filter(|_| noun != "one");
-        let goods = longest_phrase(behind, OFFERS).or_else(with).filter(|_| is_place).and_then(|words| {
-            let sold = &behind[words..];
-            let article = longest_phrase(sold, ARTICLES).unwrap_or(0);
-            let (goods, _) = names.goods(&sold[article..])?;
-            // Where only one sells it, it is meant, whatever kind of building it is.
-            let is_class = matches!(noun, "shop" | "store") && names.sellers(&goods).len() > 1;
-            let class = if is_class { noun } else { "building" };
-            Some((at + 1 + words + article, format!("{class} that sells")))
-        });
+        let goods = longest_phrase(behind, OFFERS)
+            .or_else(|| buyers::where_they_buy(behind))
+            .or_else(with)
+            .filter(|_| is_place)
+            .and_then(|words| {
+                let sold = &behind[words..];
+                let article = longest_phrase(sold, ARTICLES).unwrap_or(0);
+                let (goods, _) = names.goods(&sold[article..])?;
+                // Where only one sells it, it is meant, whatever kind of building it is.
+                let is_class = matches!(noun, "shop" | "store") && names.sellers(&goods).len() > 1;
+                let class = if is_class { noun } else { "building" };
+                Some((at + 1 + words + article, format!("{class} that sells")))
+            });
         if let Some((from, plainly)) = goods {
             let place = lexemes[at].clone();
             let plain: Vec<Lexeme> = words_at(&place, &plainly).collect();

@@ -22,7 +22,7 @@ const COMES: &Phrases = &Phrases::of(&["roll in", "roll over", "roll up", "come 
 const OVER: &[&str] = &["over", "across", "above", "from", "off", "upon", "up from", "in from", "in over"];
 const OURS: &[&str] = &["the", "our", "this", "that", "my"];
 #[rustfmt::skip]
-const WIDE: &[&str] = &["water", "sea", "bay", "harbour", "harbor", "river", "city", "town", "quay", "campus", "roofs", "rooftops", "hills", "fields", "place", "scene", "land", "docks", "port", "country", "countryside", "lake", "waves", "quarter", "horizon", "village", "houses", "ocean", "coast", "estuary", "valley", "mountains"];
+const WIDE: &[&str] = &["water", "sea", "bay", "harbour", "harbor", "river", "city", "town", "quay", "campus", "roofs", "rooftops", "hills", "fields", "place", "scene", "land", "docks", "port", "country", "countryside", "lake", "waves", "quarter", "horizon", "village", "houses", "ocean", "coast", "estuary", "valley", "mountains", "square", "plaza", "piazza", "marketplace", "market", "park", "gardens", "streets", "alleys", "lanes", "canal", "canals", "pier", "jetty", "cobbles", "cobblestones", "courtyard", "lawns", "meadows", "buildings", "treetops", "trees", "chimneys", "everything", "everyone", "everybody", "us", "neighbourhood", "district", "marsh", "moor"];
 /// Before a sky that is asked for.
 #[rustfmt::skip]
 const LEADS: &Phrases = &Phrases::of(&["give me", "give us", "i want", "we want", "id like", "wed like", "i would like", "we would like", "lets have", "let us have", "let me have", "i need", "we need", "can we have", "could we have", "can i have", "could i have", "may i have", "may we have", "id love", "wed love", "i would love", "we would love",
@@ -71,7 +71,9 @@ fn behind_wide(lexemes: &[Lexeme], at: usize) -> usize {
     let found = || {
         let over = at + longest_phrase(lexemes.get(at..)?, OVER)?;
         let noun = over + longest_phrase(lexemes.get(over..)?, OURS).unwrap_or(0);
-        WIDE.contains(&word(lexemes, noun)).then_some(noun + 1)
+        // "Over the old town", "over Market Square".
+        let last = noun + usize::from(WIDE.contains(&word(lexemes, noun + 1)));
+        WIDE.contains(&word(lexemes, last)).then_some(last + 1)
     };
     found().unwrap_or(at)
 }
@@ -145,6 +147,11 @@ mod tests {
             ),
             ("let the snow fall and remove the bin", "make it snow and remove the bin"),
             ("let thick fog drift in from the sea", "make it thick fog"),
+            ("let fog roll in over the square", "make it fog"),
+            (
+                "let the mist creep in over market square and remove the bin",
+                "make it mist and remove the bin",
+            ),
             // These say something else.
             ("let the snow fall on the bench", "let the snow fall on the bench"),
             ("let the ball roll in", "let the ball roll in"),

@@ -28,7 +28,7 @@ pub(super) struct Sound {
 
 impl Sound {
     pub(super) fn of(word: &str) -> Self {
-        let word = plain_ending(word);
+        let word = plain_ending(&full_ending(word));
         let mut sounds = String::with_capacity(word.len());
         let mut rest = word.as_str();
         while let Some(letter) = rest.chars().next() {
@@ -80,6 +80,12 @@ const fn near_vowel(sound: char) -> char {
 
 const fn is_vowel(sound: char) -> bool {
     matches!(sound, 'a' | 'e' | 'i' | 'o' | 'u')
+}
+
+/// "Barbeqe": no word ends so, and who writes it says all the letter's name.
+fn full_ending(word: &str) -> String {
+    let stem = ["qe", "qeu", "qu", "kyu"].iter().find_map(|end| word.strip_suffix(*end));
+    stem.filter(|stem| !stem.is_empty()).map_or_else(|| word.to_owned(), |stem| format!("{stem}cue"))
 }
 
 /// The endings that sound the same, written in one way: "tabel" and "table", "theatre" and "theater", "fence" and "fens".
@@ -191,6 +197,7 @@ mod tests {
         "choir",
         "light",
         "phone",
+        "barbecue",
     ];
 
     fn heard(said: &str) -> Option<String> {
@@ -214,6 +221,8 @@ mod tests {
             ("fase", "face"),
             ("fens", "fence"),
             ("fone", "phone"),
+            ("barbeqe", "barbecue"),
+            ("barbiqu", "barbecue"),
         ] {
             assert_eq!(heard(said).as_deref(), Some(right), "{said}");
         }

@@ -69,7 +69,9 @@ fn told_of(words: &str, told: &[Lexeme], names: &Names<'_>) -> Option<(Vec<Entit
     let from = told.iter().take_while(leads).count();
     let (who, count, name) = somebody(words, &told[from..], names)?;
     let rest = &told[from + count..];
-    let asks = |at: usize| longest_phrase(&rest[at..], ASKS).is_some() || OTHERS.contains(&word(rest, at));
+    let asks = |at: usize| {
+        longest_phrase(&rest[at..], ASKS).is_some() && !is_guess(rest, at) || OTHERS.contains(&word(rest, at))
+    };
     let is_other = |at: usize| {
         somebody(words, &rest[at..], names).is_some_and(|(other, ..)| other.is_empty() || other != who)
     };
@@ -77,6 +79,20 @@ fn told_of(words: &str, told: &[Lexeme], names: &Names<'_>) -> Option<(Vec<Entit
         || from == 0 && longest(told, &VERBS).is_some_and(|(_, words)| words > count);
     let tells = rest.iter().any(|lexeme| !is_mark(lexeme));
     (tells && !is_order && !(0..rest.len()).any(|at| asks(at) || is_other(at))).then_some((who, name))
+}
+
+/// Whether "must" only guesses how somebody is: "must be bored", and not "must be next to her".
+fn is_guess(rest: &[Lexeme], at: usize) -> bool {
+    #[rustfmt::skip]
+    const FEELS: &[&str] = &["bored", "lonely", "lonesome", "tired", "exhausted", "knackered", "hungry", "thirsty", "starving", "parched", "famished", "cold", "freezing", "hot", "boiling", "sad", "unhappy", "miserable", "fed", "sick", "scared", "frightened", "worn", "weary", "dying", "gasping", "desperate", "uncomfortable", "sleepy", "shattered", "restless", "soaked", "drenched", "depressed", "homesick"];
+    #[rustfmt::skip]
+    const HOW: &[&str] = &["so", "very", "really", "all", "awfully", "terribly", "quite", "rather", "pretty", "dead", "absolutely", "feeling", "getting", "utterly"];
+    if word(rest, at) != "must" || !matches!(word(rest, at + 1), "be" | "feel" | "get" | "seem") {
+        return false;
+    }
+    let from = at + 2;
+    let how = (from..rest.len()).take_while(|at| HOW.contains(&word(rest, *at))).count();
+    FEELS.contains(&word(rest, from + how))
 }
 
 /// Who is named here: "Hana", "Hana's", "the dog".
@@ -177,7 +193,7 @@ fn is_possessive(order: &[Lexeme], at: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::super::lexer::lex;
-    use super::{at_side, is_body_of_a_sort, is_possessive, owner_at, points_back};
+    use super::{at_side, is_body_of_a_sort, is_guess, is_possessive, owner_at, points_back};
 
     #[test]
     fn whose_something_is_is_written() {
@@ -203,6 +219,13 @@ mod tests {
     fn somebody_may_have_no_name() {
         assert!(is_body_of_a_sort(&lex("the brown dog")));
         assert!(!is_body_of_a_sort(&lex("the brown bench")));
+    }
+
+    #[test]
+    fn how_somebody_must_be_is_guessed() {
+        let guesses = |said: &str| is_guess(&lex(said), 0);
+        assert!(guesses("must be bored all on his own") && guesses("must feel so lonely"));
+        assert!(!guesses("must be next to anna") && !guesses("must be green") && !guesses("must go"));
     }
 
     #[test]
