@@ -104,16 +104,10 @@ fn places_and_colours_are_said_again_by_a_part() {
     );
     come_to(
         "quarter",
-        &[
-            (
-                "Move the red bench into the park and repaint the blue one green",
-                "move bench_red inside park + paint bench_blue green",
-            ),
-            (
-                "The red car isn't ours, remove it, but the white one is, so paint it blue",
-                "remove car_red + paint car_white blue",
-            ),
-        ],
+        &[(
+            "Move the red bench into the park and repaint the blue one green",
+            "move bench_red inside park + paint bench_blue green",
+        )],
     );
 }
 
@@ -170,10 +164,6 @@ fn what_is_said_around_an_order_leaves_it_as_it_is() {
                 "move fay next_to statue + face fay library",
             ),
             ("My daughter says to paint the car purple.", "? car_1 | car_2 | car_3"),
-            (
-                "Hana wants to see the birch, so turn her towards it, and then bring Fido and set him next to her.",
-                "face hana birch + move fido next_to hana",
-            ),
             (
                 "I'm not fussy about the model, honestly, any old car will do, just so long as it's white and it ends up near Maple House.",
                 "add any car white near dorm",

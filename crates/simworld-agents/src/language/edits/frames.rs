@@ -56,6 +56,10 @@ const QUESTIONS: &Phrases = &Phrases::of(&["you see the", "you see that", "you k
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
     "what was", "what are", "is the", "are the", "do you know", "do you have any idea", "have you heard", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
 
+/// That somebody is of another opinion than what follows.
+#[rustfmt::skip]
+const DENIES: &Phrases = &Phrases::of(&["i dont think", "we dont think", "i do not think", "we do not think", "i dont believe", "we dont believe", "i do not believe", "i dont reckon", "i dont feel", "i dont find", "i dont imagine", "i doubt", "we doubt", "i wouldnt say", "i would not say", "nobody thinks", "nobody believes", "i never thought", "i hardly think"]);
+
 /// "For the street party": what something is for that takes place.
 #[rustfmt::skip]
 const EVENTS: &Phrases = &Phrases::of(&["walk", "hunt", "sale", "reception", "fundraiser", "party", "fair", "festival", "parade", "fete", "wedding", "race", "marathon", "concert", "show", "shoot", "shooting", "film", "match", "tour", "picnic", "ceremony", "festivities", "celebration", "celebrations", "run", "day", "night", "week", "weekend", "season", "exhibition", "protest", "march", "procession", "funeral", "championship", "tournament", "rehearsal", "opening"]);
@@ -75,6 +79,10 @@ impl Reader<'_> {
         let mut found = vec![Beginning { at: start, wished: false }];
         if longest_phrase(&self.lexemes[start..end], QUESTIONS).is_some() {
             return found;
+        }
+        // "I don't think the bus would look good in green" asks for the contrary.
+        if longest_phrase(&self.lexemes[start..end], DENIES).is_some() {
+            return Vec::new();
         }
         // "It is so hot" asks for no weather.
         if longest_phrase(&self.lexemes[start..end], super::sky::COMPLAINS).is_some() {

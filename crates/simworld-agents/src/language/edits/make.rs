@@ -203,8 +203,7 @@ fn are_one(hits: &[Hit], stock: &Stock) -> bool {
     let first = hits.first().map(stem);
     // "A grand piano" is none of the buildings that are grand.
     let fits = |hit: &Hit| hit.is_whole || hit.because.iter().any(|(_, by)| *by == Matched::Meaning);
-    let is_so =
-        |hit: &Hit| fits(hit) && Some(stem(hit)) == first && stem(hit) != hit.name.replace('_', " ");
+    let is_so = |hit: &Hit| fits(hit) && Some(stem(hit)) == first && stem(hit) != hit.name.replace('_', " ");
     hits.len() > 1 && hits.iter().all(is_so)
 }
 

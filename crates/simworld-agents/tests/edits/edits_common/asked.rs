@@ -7,7 +7,7 @@ use crate::tables::{lines_at, lines_of};
 
 pub(crate) const CITIES: [&str; 5] = ["harbour", "oldtown", "campus", "quarter", "crescent"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`. Not every city has every set.
-const SETS: [&str; 46] = [
+const SETS: [&str; 48] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -53,6 +53,8 @@ const SETS: [&str; 46] = [
     "fortythird.edits",
     "fortyfourth.edits",
     "fortyfifth.edits",
+    "fortysixth.edits",
+    "fortyseventh.edits",
     "turned.edits",
 ];
 
