@@ -14,21 +14,21 @@ use crate::edits_common::{
 
 /// What each family scores at least, in percent. Raise it when the grammar learns; never lower it but for new sentences.
 const FLOORS: [(&str, f64); 15] = [
-    ("spacing", 95.0),
-    ("streets", 95.0),
-    ("areas", 95.0),
-    ("offsets", 95.0),
-    ("conditions", 95.0),
-    ("environment", 95.0),
-    ("counts", 95.0),
-    ("single_relation", 95.0),
-    ("nested_anchor", 95.0),
-    ("multi_object", 95.0),
-    ("other_verbs", 95.0),
-    ("ambiguous", 95.0),
-    ("unsatisfiable", 95.0),
-    ("paraphrase", 95.0),
-    ("typo", 95.0),
+    ("spacing", 97.0),
+    ("streets", 97.0),
+    ("areas", 97.0),
+    ("offsets", 97.0),
+    ("conditions", 97.0),
+    ("environment", 97.0),
+    ("counts", 97.0),
+    ("single_relation", 97.0),
+    ("nested_anchor", 97.0),
+    ("multi_object", 97.0),
+    ("other_verbs", 97.0),
+    ("ambiguous", 97.0),
+    ("unsatisfiable", 97.0),
+    ("paraphrase", 97.0),
+    ("typo", 97.0),
 ];
 
 #[derive(Default)]
@@ -136,7 +136,7 @@ fn what_was_taught_is_understood() {
     let all = judged.len();
     let wrong = judged.iter().filter(|(.., verdict)| *verdict != Verdict::Right);
     let faults: Vec<String> = wrong.map(|(city, asked, verdict)| line(city, asked, verdict)).collect();
-    assert!(all >= 2_400, "only {all} sentences");
+    assert!(all >= 3_300, "only {all} sentences");
     assert!(faults.is_empty(), "{} of {all}\n{}", faults.len(), faults.join("\n"));
 }
 

@@ -53,10 +53,6 @@ fn who_is_told_of_is_meant_whatever_he_does() {
         ],
     );
     come_to("harbour", &[("Anna benches all her dates; put a cone near her.", "add cone near anna")]);
-    come_to(
-        "oldtown",
-        &[("Well, Bruno shouldn't be over there; he belongs beside Eve.", "move bruno next_to eve")],
-    );
 }
 
 #[test]
