@@ -86,7 +86,7 @@ pub(super) fn ways(plain: &[Lexeme], names: &Names<'_>, is_open: bool) -> Vec<Ve
     let mut ways = Vec::new();
     if let Some(told) = turned(&said) {
         let speaks = told.iter().any(|lexeme| SPEAKERS.contains(&word_of(lexeme)));
-        if !speaks && !(is_open && points_back(&told)) {
+        if !(speaks || is_open && points_back(&told)) {
             ways.push(told);
         }
     }
@@ -176,7 +176,7 @@ fn only_animal(lexemes: &mut [Lexeme], names: &Names<'_>) {
     let found = (1..lexemes.len()).find(|at| {
         matches!(word(lexemes, at - 1), "the" | "that" | "this") && ANIMALS.contains(&word(lexemes, *at))
     });
-    if let Some(at) = found.filter(|_| !OTHER_ANIMALS.iter().any(|name| is_here(name))) {
+    if let Some(at) = found.filter(|_| !OTHER_ANIMALS.iter().any(is_here)) {
         lexemes[at] = word_at(&lexemes[at], "dog");
     }
 }
