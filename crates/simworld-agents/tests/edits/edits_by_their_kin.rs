@@ -2,28 +2,7 @@
 //! colour, and what who learns the language says: what must come of them, and what must not be read so.
 
 use crate::city::City;
-use crate::edits_common::{Asked, Verdict, verdict};
-
-/// What must be true of each sentence, in the notation of the sets.
-fn come_to(city: &str, said: &[(&str, &str)]) {
-    let city = City::read(city);
-    let wrong: Vec<String> = said
-        .iter()
-        .filter_map(|(words, meaning)| {
-            let asked = Asked {
-                set: "kin",
-                family: "kin".to_owned(),
-                words: (*words).to_owned(),
-                meaning: (*meaning).to_owned(),
-            };
-            match verdict(&city, &asked) {
-                Verdict::Right => None,
-                Verdict::WrongEdit(why) | Verdict::WrongAnswer(why) => Some(format!("{words}: {why}")),
-            }
-        })
-        .collect();
-    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
-}
+use crate::edits_common::{Asked, Verdict, come_to, verdict};
 
 #[test]
 fn who_is_told_of_is_meant_whatever_he_does() {

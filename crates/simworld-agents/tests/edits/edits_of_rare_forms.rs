@@ -3,28 +3,7 @@
 
 use crate::city::City;
 use crate::edits_are_chatted::{edits_of, mean};
-use crate::edits_common::{Asked, Verdict, verdict};
-
-/// What must be true of each sentence, in the notation of the sets.
-fn come_to(city: &str, said: &[(&str, &str)]) {
-    let city = City::read(city);
-    let wrong: Vec<String> = said
-        .iter()
-        .filter_map(|(words, meaning)| {
-            let asked = Asked {
-                set: "kin",
-                family: "rare".to_owned(),
-                words: (*words).to_owned(),
-                meaning: (*meaning).to_owned(),
-            };
-            match verdict(&city, &asked) {
-                Verdict::Right => None,
-                Verdict::WrongEdit(why) | Verdict::WrongAnswer(why) => Some(format!("{words}: {why}")),
-            }
-        })
-        .collect();
-    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
-}
+use crate::edits_common::come_to;
 
 #[test]
 fn conditions_on_doors_are_kept() {

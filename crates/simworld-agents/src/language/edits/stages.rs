@@ -1,14 +1,15 @@
 //! The ways in which a sentence is heard anew that is refused as it stands, one after the other, until what it asks for is granted.
 
 use super::super::lexer::Lexeme;
+use super::super::names::Names;
 use super::heard::Ear;
 use super::memo::Memo;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::{
-    Reading, anew, forms, kin, lastly, placed, remarked, slips, statements, talked, unusual, view_of,
+    Focus, Reading, anew, forms, kin, lastly, placed, remarked, slips, statements, talked, unusual, view_of,
 };
-use crate::editing::EditError;
+use crate::editing::{EditError, Stock};
 
 /// A way to hear a sentence anew, from its words and what was read so far.
 type Stage<'a> = fn(&Ear<'a>, &[Lexeme], Result<Reading, EditError>) -> Result<Reading, EditError>;
@@ -28,23 +29,33 @@ pub(super) fn stages<'a>() -> [Stage<'a>; 9] {
     ]
 }
 
+/// Ways to say what was heard in plainer words.
+type Ways = fn(&str, &[Lexeme], &Names<'_>, &Stock, &Focus) -> Vec<Vec<Lexeme>>;
+
 impl Ear<'_> {
+    /// The first of the ways of a module that is granted; or else what is wrong with the sentence.
+    fn by(
+        &self,
+        ways: Ways,
+        heard: &[Lexeme],
+        read: Result<Reading, EditError>,
+    ) -> Result<Reading, EditError> {
+        let names = self.names(heard);
+        self.first_granted(ways(self.words, heard, &names, self.stock, self.focus), read)
+    }
+
     /// The sentence as it may have been meant, if that is granted; or else what is wrong with it.
     fn in_other_words(
         &self,
         heard: &[Lexeme],
         read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(lastly::ways(words, heard, &names, stock, focus), read)
+        self.by(lastly::ways, heard, read)
     }
 
     /// As [`Self::in_other_words`], by questions in other words and by scenes that are set.
     fn told_anew(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(anew::ways(words, heard, &names, stock, focus), read)
+        self.by(anew::ways, heard, read)
     }
 
     /// As [`Self::in_other_words`], by turns that few use, conditions on doors, and what is said again by a part of it.
@@ -53,9 +64,7 @@ impl Ear<'_> {
         heard: &[Lexeme],
         read: Result<Reading, EditError>,
     ) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(unusual::ways(words, heard, &names, stock, focus), read)
+        self.by(unusual::ways, heard, read)
     }
 
     /// The first of some ways to say a sentence that is granted; or else what is wrong with it.
@@ -188,9 +197,7 @@ impl Ear<'_> {
 
     /// As [`Self::in_other_words`], by turns of phrase like those that are known, and by who is told of.
     fn by_their_kin(&self, heard: &[Lexeme], read: Result<Reading, EditError>) -> Result<Reading, EditError> {
-        let Self { words, stock, focus, .. } = *self;
-        let names = self.names(heard);
-        self.first_granted(kin::ways(words, heard, &names, stock, focus), read)
+        self.by(kin::ways, heard, read)
     }
 
     /// "The windmill looks shabby, paint it white": that there is no windmill, where nothing is there that "it" could stand for.

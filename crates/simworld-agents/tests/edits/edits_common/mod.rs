@@ -2,6 +2,7 @@
 
 mod asked;
 mod ground;
+mod kin;
 mod relations;
 
 use std::sync::LazyLock;
@@ -16,6 +17,7 @@ use simworld_core::seed::Seed;
 use simworld_core::traffic::RoadLeg;
 
 pub(crate) use asked::{Asked, CITIES, asked_elsewhere, is_whole, newest_in, sampled_in, taught_in};
+pub(crate) use kin::come_to;
 
 use crate::city::City;
 
