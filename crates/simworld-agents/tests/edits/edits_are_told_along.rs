@@ -2,6 +2,7 @@
 //! and no order is lost in it.
 
 use crate::city::City;
+use crate::edits_common::come_to;
 use simworld_agents::editing::{Edit, SceneEditor};
 use simworld_core::seed::Seed;
 
@@ -197,4 +198,55 @@ fn conditions_on_what_nobody_has_hold() {
     let city = City::read("oldtown");
     let edits = edits_of(&city, "if there is a market stall in town, remove the taxi").unwrap();
     assert!(matches!(edits[..], [Edit::Leave { .. }]), "{edits:?}");
+}
+
+#[test]
+fn neither_an_order_behind_then_nor_a_place_behind_a_comma_is_lost() {
+    come_to(
+        "harbour",
+        &[
+            (
+                "Paint the blue car white, then give it a quarter turn to the right.",
+                "paint car_blue white + rotate car_blue -90",
+            ),
+            ("Paint the blue car white, then give it a twin.", "! unknown thing ~ twin"),
+            ("Paint the blue car white, then make it nicer.", "! not understood"),
+            (
+                "A bicycle rack, please, beside the business that sells newspapers.",
+                "add bicycle_rack next_to shop",
+            ),
+            (
+                "A bicycle rack, please, beside the frobnicator that sells newspapers.",
+                "! not found ~ frobnicator",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn what_somebody_thinks_is_no_wish_unless_he_likes_it() {
+    come_to(
+        "harbour",
+        &[
+            ("My sister thinks the bus would look great in green.", "paint bus green"),
+            ("I don't think the bus would look good in green.", "! not understood"),
+            ("Nobody thinks the bus would look good in green.", "! not understood"),
+            ("I think the bus would look awful in green.", "! not understood"),
+            ("The bus would look bad in green.", "! not understood"),
+        ],
+    );
+}
+
+#[test]
+fn what_nobody_has_is_not_replaced_by_what_is_only_as_grand() {
+    come_to(
+        "harbour",
+        &[
+            ("Put a grand piano next to Anna.", "! unknown thing ~ piano"),
+            (
+                "I need a row of seven frobnicators between the pine and the parcel.",
+                "! unknown thing ~ frobnicators",
+            ),
+        ],
+    );
 }
