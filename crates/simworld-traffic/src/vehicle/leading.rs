@@ -3,6 +3,8 @@
 //! On a short lane nobody changes to the one beside any more, so that a driver chooses his lane before it by what comes after it. Who still
 //! stands where no way leads to the end of his route goes on by the way that there is.
 
+use std::collections::BTreeSet;
+
 use simworld_core::id::LaneId;
 
 use super::VehicleKind;
@@ -122,7 +124,7 @@ pub(super) fn way_off(tracks: &Tracks, from: Leg, goal: Leg) -> Option<Route> {
         return None;
     }
     // Each leg with the place in the list of the one before it.
-    let mut found = vec![(from, 0)];
+    let (mut found, mut seen) = (vec![(from, 0)], BTreeSet::from([from]));
     let mut at = 0;
     while let Some((leg, _)) = found.get(at).copied() {
         let after = tracks.router.after(leg);
@@ -135,9 +137,7 @@ pub(super) fn way_off(tracks: &Tracks, from: Leg, goal: Leg) -> Option<Route> {
             legs.reverse();
             return Some(Route(legs));
         }
-        let new: Vec<Leg> =
-            after.into_iter().filter(|leg| found.iter().all(|known| known.0 != *leg)).collect();
-        found.extend(new.into_iter().map(|leg| (leg, at)));
+        found.extend(after.into_iter().filter(|leg| seen.insert(*leg)).map(|leg| (leg, at)));
         at += 1;
     }
     None

@@ -60,9 +60,11 @@ impl VehicleManager {
     /// Lets the first of a lane take a way from which its goal is reached by nothing, and leave where that ends, without having
     /// arrived. What is closed is no matter: it may be opened.
     fn leave_by(&mut self, tracks: &Tracks, lane: Track, way: u32, goal: Leg) -> bool {
+        if self.closures.bars(tracks, way as usize) {
+            return false;
+        }
         let after = Leg::of(&tracks.network, LaneId(tracks.lane_after(way as usize)));
-        let is_open = !self.closures.bars(tracks, way as usize);
-        let Some(off) = way_off(tracks, after, goal).filter(|_| is_open) else { return false };
+        let Some(off) = way_off(tracks, after, goal) else { return false };
         self.go_by(tracks, (lane, 0), way, Some(off));
         let route = self.paths(tracks, lane)[0].route;
         if self.off.last() != Some(&route) {
