@@ -39,9 +39,8 @@ pub(super) fn ways(
     stock: &Stock,
     focus: &Focus,
 ) -> Vec<Vec<Lexeme>> {
-    let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
-    // A word that these turns alone know may have been taken for a slip.
-    [heard, &spelt[..]].into_iter().filter_map(told).collect()
+    let said = slips::heard_and_spelt(words, heard, names, stock, &focus.streets);
+    said.iter().filter_map(|said| told(said)).collect()
 }
 
 /// The words told otherwise, if they are.

@@ -71,16 +71,12 @@ pub(super) fn ways(
     stock: &Stock,
     focus: &Focus,
 ) -> Vec<Vec<Lexeme>> {
-    let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
+    let said = slips::heard_and_spelt(words, heard, names, stock, &focus.streets);
     let mut ways: Vec<Vec<Lexeme>> = Vec::new();
-    for said in [heard, &spelt[..]] {
-        for way in told(words, said, names, focus) {
-            let is_known = is_same(&way, heard)
-                || is_same(&way, &spelt)
-                || ways.iter().any(|other| is_same(other, &way));
-            if !is_known && way.iter().any(|lexeme| !is_mark(lexeme)) {
-                ways.push(way);
-            }
+    for way in said.iter().flat_map(|said| told(words, said, names, focus)) {
+        let is_known = said.iter().chain(&ways).any(|other| is_same(other, &way));
+        if !is_known && way.iter().any(|lexeme| !is_mark(lexeme)) {
+            ways.push(way);
         }
     }
     ways

@@ -10,6 +10,7 @@ use super::super::paint::PAINTS;
 use super::super::spelling::{NO_SLIP, correct_but, is_known};
 use super::super::streets::StreetNames;
 use super::super::verbs::base_form;
+use super::forms::is_same;
 use super::{lost_spaces, words};
 use crate::editing::Stock;
 use crate::retrieval::is_synonym;
@@ -154,6 +155,19 @@ enum Slip {
     Swapped,
     Count,
     Letter,
+}
+
+/// A sentence as it was heard and, where that differs, as it is spelt: a word that turns of phrase alone know may have been taken for a slip.
+pub(super) fn heard_and_spelt(
+    words: &str,
+    heard: &[Lexeme],
+    names: &Names<'_>,
+    stock: &Stock,
+    streets: &StreetNames,
+) -> Vec<Vec<Lexeme>> {
+    let spelt = corrected(words, heard, names, stock, streets);
+    let differs = !is_same(&spelt, heard);
+    std::iter::once(heard.to_vec()).chain(differs.then_some(spelt)).collect()
 }
 
 /// A sentence with its slips put right.

@@ -98,10 +98,9 @@ pub(super) fn ways(
     stock: &Stock,
     focus: &Focus,
 ) -> Vec<Vec<Lexeme>> {
-    let spelt = slips::corrected(words, heard, names, stock, &focus.streets);
-    // A word that these turns alone know may have been taken for a slip.
+    let said = slips::heard_and_spelt(words, heard, names, stock, &focus.streets);
     let mut ways: Vec<Vec<Lexeme>> = Vec::new();
-    for way in [heard, &spelt[..]].into_iter().flat_map(|said| told(words, said, names, focus)) {
+    for way in said.iter().flat_map(|said| told(words, said, names, focus)) {
         if ways.iter().all(|other| !is_same(other, &way)) {
             ways.push(way);
         }
