@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use simworld_core::geometry::Point2;
+use simworld_core::net::Workers;
 
 use super::Person;
+use crate::parts::in_parts;
 
 /// Cells in a row of a tile, and rows of a tile: two to the power of this. The cells of a tile lie together in memory.
 const TILE: u32 = 3;
@@ -14,14 +16,27 @@ const CELLS: usize = 1 << (2 * TILE);
 /// `2 RINGS + 1` fits into a tile, so no two of its cells share a bucket even where tiles do.
 const RINGS: i64 = 1;
 
-/// A person as the others see it, but for its place.
+/// A person as the others see it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seen {
+    /// Where it is, m.
+    pub(super) at: [f64; 2],
     /// Where it walks, of length one.
     pub(super) facing: [f32; 2],
     /// m/s.
     pub(super) speed: f32,
     pub(super) index: u32,
+}
+
+impl Seen {
+    fn of(person: &Person, index: u32) -> Self {
+        Self {
+            at: [person.position.x, person.position.y],
+            facing: [person.direction.x as f32, person.direction.y as f32],
+            speed: person.speed as f32,
+            index,
+        }
+    }
 }
 
 /// The cell farthest from the middle.
@@ -36,55 +51,57 @@ pub(super) struct Grid {
     /// The people of bucket i are `seen[starts[i]..starts[i + 1]]`.
     starts: Vec<u32>,
     seen: Vec<Seen>,
-    /// Their places, m.
-    x: Vec<f64>,
-    y: Vec<f64>,
-    /// Where each of the first in number is found in `seen`.
+    /// Where each of them is found in `seen`; before that, the bucket of each.
     ranks: Vec<u32>,
     per_metre: f64,
 }
 
 impl Grid {
-    /// Sorts `count` people by place; those of a bucket keep their order, so that sums over them do too. Where they are
-    /// found is kept for the first `ranked`.
+    /// Sorts `count` people by place; those of a bucket keep their order, so that sums over them do too.
+    ///
+    /// Only what needs the order of all is done by one thread: it moves numbers, and looks at nobody.
     pub(super) fn rebuild(
         &mut self,
+        workers: &dyn Workers,
         count: usize,
-        person: impl Fn(usize) -> Person,
-        ranked: usize,
+        person: &(impl Fn(usize) -> Person + Sync),
         reach: f64,
     ) {
         self.per_metre = RINGS as f64 / reach;
         let tiles = count.div_ceil(CELLS).next_power_of_two();
+        let mut ranks = std::mem::take(&mut self.ranks);
+        ranks.resize(count, 0);
+        in_parts(workers, &mut ranks, &|_, first, buckets| {
+            for (to, index) in buckets.iter_mut().zip(first..) {
+                *to = bucket(self.cell(person(index).position), tiles) as u32;
+            }
+        });
+        self.sort(&mut ranks, tiles);
+        self.ranks = ranks;
+        in_parts(workers, &mut self.seen, &|_, _, seen| {
+            for seen in seen {
+                *seen = Seen::of(&person(seen.index as usize), seen.index);
+            }
+        });
+    }
+
+    /// Finds the rank of everybody from their bucket, and says who is found at each rank.
+    fn sort(&mut self, ranks: &mut [u32], tiles: usize) {
         self.starts.clear();
         self.starts.resize(tiles * CELLS + 1, 0);
-        self.seen.resize(count, Seen::default());
-        self.x.resize(count, 0.0);
-        self.y.resize(count, 0.0);
-        self.ranks.resize(ranked, 0);
-        for index in 0..count {
-            let bucket = bucket(self.cell(person(index).position), tiles);
-            self.starts[bucket + 1] += 1;
+        self.seen.resize(ranks.len(), Seen::default());
+        for bucket in &*ranks {
+            self.starts[*bucket as usize + 1] += 1;
         }
         for index in 1..self.starts.len() {
             self.starts[index] += self.starts[index - 1];
         }
         // Filling moves each start to the start of the next bucket; moving them up by one puts them right.
-        for index in 0..count {
-            let person = person(index);
-            let bucket = bucket(self.cell(person.position), tiles);
-            let start = &mut self.starts[bucket];
-            let rank = *start;
+        for (rank, index) in ranks.iter_mut().zip(0..) {
+            let start = &mut self.starts[*rank as usize];
+            *rank = *start;
             *start += 1;
-            (self.x[rank as usize], self.y[rank as usize]) = (person.position.x, person.position.y);
-            self.seen[rank as usize] = Seen {
-                facing: [person.direction.x as f32, person.direction.y as f32],
-                speed: person.speed as f32,
-                index: index as u32,
-            };
-            if let Some(kept) = self.ranks.get_mut(index) {
-                *kept = rank;
-            }
+            self.seen[*rank as usize].index = index;
         }
         self.starts.copy_within(0..tiles * CELLS, 1);
         self.starts[0] = 0;
@@ -97,12 +114,7 @@ impl Grid {
 
     /// Where the one of this rank is, m.
     pub(super) fn position(&self, rank: usize) -> Point2 {
-        Point2::new(self.x[rank], self.y[rank])
-    }
-
-    /// Where those of these ranks are, m.
-    pub(super) fn places(&self, ranks: Range<usize>) -> (&[f64], &[f64]) {
-        (&self.x[ranks.clone()], &self.y[ranks])
+        Point2::from(self.seen[rank].at)
     }
 
     /// Where somebody is found among them.
@@ -126,6 +138,14 @@ impl Grid {
         })
     }
 
+    /// Reads what [`around`](Self::around) will of the cells around somebody, and where the first of each row is: processors wait
+    /// for many such places of the memory at once. The value means nothing.
+    pub(super) fn touch(&self, rank: usize) -> u32 {
+        let tiles = self.starts.len() / CELLS;
+        let (column, row) = self.cell(self.position(rank));
+        (row - RINGS..=row + RINGS).fold(0, |all, row| all ^ self.starts[bucket((column - RINGS, row), tiles)])
+    }
+
     /// The cell of a place.
     pub(super) fn cell(&self, at: Point2) -> Cell {
         (floor(at.x * self.per_metre), floor(at.y * self.per_metre))
@@ -135,7 +155,6 @@ impl Grid {
     pub(super) fn bytes(&self) -> usize {
         (self.starts.capacity() + self.ranks.capacity()) * 4
             + self.seen.capacity() * size_of::<Seen>()
-            + (self.x.capacity() + self.y.capacity()) * 8
     }
 
     /// The middle of a cell, m.

@@ -126,8 +126,7 @@ impl Crowd {
         dt: f64,
     ) {
         let herd = Slices { people, wishes, others, around, dt };
-        let movers = herd.people.len();
-        self.decide(workers, (model, Steering::default()), &herd, movers);
+        self.decide(workers, (model, Steering::default()), &herd);
         in_parts(workers, people, &|_, first, people| {
             for (person, index) in people.iter_mut().zip(first..) {
                 if let Some(decision) = self.decision(index) {

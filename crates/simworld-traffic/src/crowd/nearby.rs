@@ -54,12 +54,10 @@ impl Around {
                 self.y.resize(2 * end, 0.0);
                 self.ranks.resize(2 * end, 0);
             }
-            let (from_x, from_y) = grid.places(ranks.clone());
-            for (to, from) in self.x[first..end].iter_mut().zip(from_x) {
-                *to = (from - middle.x) as f32;
-            }
-            for (to, from) in self.y[first..end].iter_mut().zip(from_y) {
-                *to = (from - middle.y) as f32;
+            let places = self.x[first..end].iter_mut().zip(&mut self.y[first..end]);
+            for ((x, y), seen) in places.zip(&grid.seen()[ranks.clone()]) {
+                *x = (seen.at[0] - middle.x) as f32;
+                *y = (seen.at[1] - middle.y) as f32;
             }
             for (to, rank) in self.ranks[first..end].iter_mut().zip(ranks.start as u32..) {
                 *to = rank;

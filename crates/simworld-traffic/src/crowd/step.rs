@@ -69,16 +69,15 @@ impl PartialEq for Crowd {
 }
 
 impl Crowd {
-    /// Lets everybody decide who does so now, of the first `movers` of a herd.
+    /// Lets everybody of a herd decide who does so now.
     pub(crate) fn decide(
         &mut self,
         workers: &dyn Workers,
         (model, steering): (&AnticipationVelocity, Steering),
         herd: &impl Herd,
-        movers: usize,
     ) {
         let Self { grid, decisions, scratch } = self;
-        grid.rebuild(herd.count(), |index| herd.person(index), movers, REACH);
+        grid.rebuild(workers, herd.count(), &|index| herd.person(index), REACH);
         scratch.resize_with(PARTS, || Mutex::new(Scratch::roomy()));
         decisions.resize(herd.count(), Decision::default());
         let rules = Rules::new(model, steering);
@@ -123,6 +122,8 @@ impl Scratch {
         self.walls.clear();
         self.ends.clear();
         let block = &grid.seen()[first..first + decisions.len()];
+        let ranks = first..first + decisions.len();
+        black_box(ranks.fold(0, |all, rank| all ^ grid.touch(rank)));
         black_box(block.iter().fold(0, |all, seen| all ^ herd.touch(seen.index as usize)));
         for seen in block {
             self.looks.push(herd.look(seen.index as usize, &mut self.walls));

@@ -129,7 +129,9 @@ impl PedestrianManager {
         self.choose_subset(turn);
         self.walk(sight, around, turn, until_turn, time.dt);
         for (index, (waiting, at_kerb)) in self.waiting.iter_mut().zip(&self.at_kerb).enumerate() {
-            *waiting = if sight.shows_walk(CrossingId::from_index(index)) { *at_kerb } else { 0 };
+            // Most kerbs are empty, and what shows there need not be looked up.
+            let may_walk = *at_kerb > 0 && sight.shows_walk(CrossingId::from_index(index));
+            *waiting = if may_walk { *at_kerb } else { 0 };
         }
     }
 
@@ -213,8 +215,7 @@ impl PedestrianManager {
         if !idle {
             let Surroundings { workers, config, bodies, .. } = around;
             let herd = Streets { walkers, subset: some, bodies, ways: sight.ways, turn, until_turn, dt };
-            let movers = herd.movers();
-            crowd.decide(*workers, (&config.walking, config.people.steering), &herd, movers);
+            crowd.decide(*workers, (&config.walking, config.people.steering), &herd);
         }
         for (rank, index) in some.iter().enumerate() {
             let walker = &mut walkers[*index as usize];

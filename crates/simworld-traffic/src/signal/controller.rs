@@ -11,6 +11,8 @@ use super::{ByHand, Demand, FixedTime, JunctionView, SignalPolicy};
 
 /// Sums of steps are compared with this much tolerance, s.
 const ROUNDING: f64 = 1e-6;
+/// A controller is looked at again so long before anything can happen to it, s: what clocks of long runs round.
+const EARLY: f64 = 1e-3;
 
 /// Where a controller is in its plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -42,6 +44,9 @@ pub(crate) struct IntersectionManager {
     plans: Vec<SignalPlan>,
     stages: Vec<Vec<Stage>>,
     policy: Box<dyn SignalPolicy + Send>,
+    /// By plan, the time in its interval before which nothing can happen to its controller unless it is held, s: most of the memory of
+    /// most plans need not be looked at in most steps. It follows from the rest.
+    idle_until: Vec<f64>,
     pub(crate) aspects: Vec<Aspect>,
 }
 
@@ -51,6 +56,7 @@ impl IntersectionManager {
             plans: Vec::new(),
             stages: Vec::new(),
             policy: Box::new(FixedTime),
+            idle_until: Vec::new(),
             aspects: vec![Aspect::Red; network.signal_groups()],
         };
         manager.set_plans(network.signals.clone());
@@ -68,10 +74,18 @@ impl IntersectionManager {
     pub(crate) fn set_plans(&mut self, plans: Vec<SignalPlan>) {
         self.stages = plans.iter().map(stages).collect();
         self.plans = plans;
+        self.wake();
+    }
+
+    /// Has every controller that has stages looked at in the next step.
+    fn wake(&mut self) {
+        let wakes = |stages: &Vec<Stage>| if stages.is_empty() { f64::INFINITY } else { 0.0 };
+        self.idle_until = self.stages.iter().map(wakes).collect();
     }
 
     pub(crate) fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
         self.policy = policy;
+        self.wake();
     }
 
     /// Controllers as they stand when the clock of the plans shows `seconds`.
@@ -113,36 +127,37 @@ impl IntersectionManager {
         demand: Demand<'_>,
         dt: f64,
     ) {
-        let Self { plans, stages, policy, aspects } = self;
-        let plans = plans.iter().zip(stages).zip(controllers.iter_mut());
-        for (number, ((plan, stages), controller)) in plans.enumerate() {
-            if stages.is_empty() {
-                continue;
+        let Self { plans, stages, policy, idle_until, aspects } = self;
+        for (number, (controller, idle_until)) in controllers.iter_mut().zip(idle_until).enumerate() {
+            if *idle_until == f64::INFINITY {
+                continue; // it has no stages
             }
             controller.elapsed += dt;
+            let held = by_hand.held(number);
+            if controller.elapsed < *idle_until && held.is_none() {
+                continue;
+            }
+            let (plan, stages) = (&plans[number], &stages[number]);
             let before = (controller.stage, controller.ending);
-            let stage = &stages[controller.stage as usize];
-            if controller.ending == 0 && controller.elapsed + ROUNDING >= stage.least_green {
-                let junction = JunctionView {
-                    plan,
-                    stages,
-                    current: controller.stage as usize,
-                    elapsed: controller.elapsed,
-                    seconds,
-                    demand,
-                };
-                let held = by_hand.held(number);
+            let current = controller.stage as usize;
+            let mut keeps = 0.0;
+            if controller.ending == 0 && controller.elapsed + ROUNDING >= stages[current].least_green {
+                let elapsed = controller.elapsed;
+                let junction = JunctionView { plan, stages, current, elapsed, seconds, demand };
                 let wish = held.unwrap_or_else(|| policy.next_stage(&junction));
-                if wish < stages.len() && wish != controller.stage as usize {
+                if wish < stages.len() && wish != current {
                     controller.next = wish as u32;
                     controller.ending = 1;
                     controller.elapsed = 0.0;
+                } else if held.is_none() {
+                    keeps = policy.keeps(&junction);
                 }
             }
             controller.go_through_ending(plan, stages);
             if (controller.stage, controller.ending) != before {
                 controller.show(plan, stages, aspects);
             }
+            *idle_until = controller.earliest(plan, stages).max(controller.elapsed + keeps) - EARLY;
         }
     }
 
@@ -178,6 +193,15 @@ impl Controller {
         };
         for group in &plan.groups {
             aspects[group.index()] = plan.phases[phase].aspect(*group);
+        }
+    }
+
+    /// The time in its interval at which something can happen at the earliest: its least green or the end of what ends it, s.
+    fn earliest(&self, plan: &SignalPlan, stages: &[Stage]) -> f64 {
+        let stage = &stages[self.stage as usize];
+        match self.ending {
+            0 => stage.least_green,
+            step => stage.ending.get(step as usize - 1).map_or(0.0, |phase| plan.phases[*phase].duration),
         }
     }
 

@@ -22,6 +22,11 @@ impl SignalPolicy for FixedTime {
     fn watches(&self) -> bool {
         false
     }
+
+    fn keeps(&self, junction: &JunctionView<'_>) -> f64 {
+        let plan = junction.plan;
+        phase_at(plan, junction.seconds).map_or(0.0, |(phase, elapsed)| plan.phases[phase].duration - elapsed)
+    }
 }
 
 /// Webster's timing of a fixed plan (Webster 1958, Road Research Technical Paper 39).

@@ -119,4 +119,9 @@ pub trait SignalPolicy {
     fn watches(&self) -> bool {
         true
     }
+
+    /// For how long it would surely answer with the current stage again, s: so long it is not asked. None, unless it knows better.
+    fn keeps(&self, _junction: &JunctionView<'_>) -> f64 {
+        0.0
+    }
 }

@@ -470,8 +470,7 @@ impl VehicleManager {
         if let Some(route) = routes.get(path.route as usize) {
             return route.0.get(path.leg as usize + 1).copied();
         }
-        let way = tracks.network.connections.get(vehicle.next as usize)?;
-        Some(Leg::of(&tracks.network, way.to))
+        tracks.ways.get(vehicle.next as usize).map(|way| way.leg)
     }
 
     /// Bytes that the vehicles take, hot and cold, with all that is kept for a step.
