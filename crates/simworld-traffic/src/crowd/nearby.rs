@@ -11,7 +11,7 @@
 
 use std::f32::consts::LOG2_E;
 
-use simworld_core::geometry::Vector2;
+use simworld_core::geometry::{Point2, Vector2};
 
 use super::exp::exp2;
 use super::grid::{Cell, Grid};
@@ -39,30 +39,36 @@ impl Around {
         self.cell = None;
     }
 
-    /// Looks into the cells around one, unless that was done last.
-    pub(super) fn look(&mut self, grid: &Grid, cell: Cell) {
-        if self.cell == Some(cell) {
+    /// Looks around the place of the one of a rank; in a crowd not again for those of one cell, one after the other.
+    pub(super) fn look(&mut self, grid: &Grid, at: Point2, rank: usize) {
+        let cell = grid.cell(at);
+        // Elsewhere there is seldom anybody else, and whoever looks need not be looked up.
+        let oneself = if grid.is_crowd() { usize::MAX } else { rank };
+        if self.cell == Some(cell) && grid.is_crowd() {
             return;
         }
         self.cell = Some(cell);
         self.count = 0;
         let middle = grid.middle(cell);
-        for ranks in grid.around(cell) {
-            let (first, end) = (self.count, self.count + ranks.len());
-            if end > self.x.len() {
-                self.x.resize(2 * end, 0.0);
-                self.y.resize(2 * end, 0.0);
-                self.ranks.resize(2 * end, 0);
+        for (ranks, mark) in grid.around(at) {
+            self.make_room(ranks.len());
+            for (rank, _) in ranks.clone().zip(grid.marks(ranks)).filter(|(rank, other)| (**other == mark) & (*rank != oneself)) {
+                let seen = &grid.seen()[rank];
+                self.x[self.count] = (seen.at[0] - middle.x) as f32;
+                self.y[self.count] = (seen.at[1] - middle.y) as f32;
+                self.ranks[self.count] = rank as u32;
+                self.count += 1;
             }
-            let places = self.x[first..end].iter_mut().zip(&mut self.y[first..end]);
-            for ((x, y), seen) in places.zip(&grid.seen()[ranks.clone()]) {
-                *x = (seen.at[0] - middle.x) as f32;
-                *y = (seen.at[1] - middle.y) as f32;
-            }
-            for (to, rank) in self.ranks[first..end].iter_mut().zip(ranks.start as u32..) {
-                *to = rank;
-            }
-            self.count = end;
+        }
+    }
+
+    /// Makes room for so many more.
+    fn make_room(&mut self, more: usize) {
+        let end = self.count + more;
+        if end > self.x.len() {
+            self.x.resize(2 * end, 0.0);
+            self.y.resize(2 * end, 0.0);
+            self.ranks.resize(2 * end, 0);
         }
     }
 }
@@ -135,6 +141,13 @@ impl Nearby {
             chosen += (*matters & u32::from(*rank != me.rank as u32)) as usize;
         }
         self.take(grid, around, chosen, [own_x, own_y], near);
+        if !grid.is_crowd() {
+            // In the order in which those of a crowd are found: whom one heeds first makes a difference.
+            self.close.sort_unstable_by_key(|rank| {
+                let (column, row) = grid.cell(grid.position(*rank as usize));
+                (row, column, *rank)
+            });
+        }
     }
 
     fn take(&mut self, grid: &Grid, around: &Around, count: usize, own: Pair, near: f32) {

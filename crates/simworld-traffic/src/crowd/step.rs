@@ -49,7 +49,7 @@ struct Scratch {
 #[derive(Debug, Default)]
 pub struct Crowd {
     grid: Grid,
-    /// In the order of the grid.
+    /// In the order of the grid if it is a crowd, else in that of the people.
     decisions: Vec<Decision>,
     scratch: Vec<Mutex<Scratch>>,
 }
@@ -85,7 +85,7 @@ impl Crowd {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
             scratch.around.forget();
             for (block, decisions) in decisions.chunks_mut(BLOCK).enumerate() {
-                scratch.decide(&rules, grid, herd, first + block * BLOCK, decisions);
+                scratch.decide(&rules, (grid, grid.is_crowd()), herd, first + block * BLOCK, decisions);
             }
         });
     }
@@ -97,7 +97,8 @@ impl Crowd {
 
     /// What the last call of [`decide`](Self::decide) made of somebody, if they decided.
     pub(crate) fn decision(&self, index: usize) -> Option<&Decision> {
-        Some(&self.decisions[self.grid.rank(index)]).filter(|decision| decision.facing != [0.0; 2])
+        let place = if self.grid.is_crowd() { self.grid.rank(index) } else { index };
+        Some(&self.decisions[place]).filter(|decision| decision.facing != [0.0; 2])
     }
 }
 
@@ -109,11 +110,12 @@ impl Scratch {
         Self { near, looks, walls, ends, bounds: Vec::with_capacity(48), ..Self::default() }
     }
 
-    /// Lets those of a block decide, from a rank on.
+    /// Lets those of a block decide, from one on: by rank in a crowd, so that those of a cell look around once, else by
+    /// number, in which they lie in the memory.
     fn decide(
         &mut self,
         rules: &Rules,
-        grid: &Grid,
+        (grid, by_rank): (&Grid, bool),
         herd: &impl Herd,
         first: usize,
         decisions: &mut [Decision],
@@ -121,21 +123,26 @@ impl Scratch {
         self.looks.clear();
         self.walls.clear();
         self.ends.clear();
-        let block = &grid.seen()[first..first + decisions.len()];
-        let ranks = first..first + decisions.len();
-        black_box(ranks.fold(0, |all, rank| all ^ grid.touch(rank)));
-        black_box(block.iter().fold(0, |all, seen| all ^ herd.touch(seen.index as usize)));
-        for seen in block {
-            self.looks.push(herd.look(seen.index as usize, &mut self.walls));
+        let places = first..first + decisions.len();
+        let number = |place: usize| if by_rank { grid.seen()[place].index as usize } else { place };
+        black_box(places.clone().fold(0, |all, place| all ^ herd.touch(number(place))));
+        for place in places.clone() {
+            self.looks.push(herd.look(number(place), &mut self.walls));
             self.ends.push(self.walls.len());
         }
         let (looks, walls, ends) = (take(&mut self.looks), take(&mut self.walls), take(&mut self.ends));
+        if !by_rank {
+            black_box(looks.iter().flatten().fold(0, |all, look| all ^ grid.touch(look.person.position)));
+            // Who walks beside somebody lies beside them.
+            black_box(places.clone().fold(0, |all, place| all ^ grid.seen()[grid.rank(place)].index));
+        }
         let mut begin = 0;
-        for (place, decision) in decisions.iter_mut().enumerate() {
-            let walls = &walls[begin..ends[place]];
-            begin = ends[place];
-            *decision = match &looks[place] {
-                Some(look) => self.decide_one(rules, grid, herd, first + place, look, walls),
+        for (((decision, place), look), end) in decisions.iter_mut().zip(places).zip(&looks).zip(&ends) {
+            let walls = &walls[begin..*end];
+            begin = *end;
+            let rank = if by_rank { place } else { grid.rank(place) };
+            *decision = match look {
+                Some(look) => self.decide_one(rules, grid, herd, rank, look, walls),
                 None => Decision::default(),
             };
         }
@@ -158,7 +165,7 @@ impl Scratch {
         }
         let rules = rules.holding(hold);
         let me = Me { rank, person, wish };
-        self.around.look(grid, grid.cell(person.position));
+        self.around.look(grid, person.position, rank);
         self.near.find(&rules, grid, &self.around, &me);
         let (wanted, direction) = rules.decide(&me, &mut self.near, walls);
         self.bind(&rules, grid, herd, &me, walls, hold);

@@ -65,6 +65,7 @@ impl PedestrianManager {
             let character = Character::draw(&profiles, config, &mut rng);
             let mut tries = (0..TRIES).filter_map(|_| draw(ways, &walkways, character.keep_right, &mut rng));
             let Some((entry, half)) = tries.find(|(entry, _)| taken.take(entry.position)) else {
+                self.number_by_place();
                 return first;
             };
             self.walkers.push(walker(&character, &entry, ways, first));
@@ -76,7 +77,26 @@ impl PedestrianManager {
             }
             self.introduce(first);
         }
+        self.number_by_place();
         config.pedestrians
+    }
+
+    /// Numbers parties in the order of the walkways on which they begin: those who are near one another in the city lie near one
+    /// another in the memory, and so does what they look up of the ways.
+    fn number_by_place(&mut self) {
+        let mut parties: Vec<(WaypointId, u32)> = (0..)
+            .zip(&self.walkers)
+            .filter(|(number, walker)| walker.party == *number)
+            .map(|(number, walker)| (walker.from, number))
+            .collect();
+        parties.sort_unstable();
+        let mut walkers = Vec::with_capacity(self.walkers.capacity());
+        for (_, first) in parties {
+            let party = walkers.len() as u32;
+            let members = self.walkers[first as usize..].iter().take_while(|walker| walker.party == first);
+            walkers.extend(members.map(|walker| Pedestrian { party, ..*walker }));
+        }
+        self.walkers = walkers;
     }
 
     /// Puts somebody beside the first of a party; false if there is no room.

@@ -102,8 +102,7 @@ impl Part {
     /// Those whose front has left a lane by a junction and whose rear has not: where that is, from the end of the lane, m and
     /// negative; and their speeds.
     fn leavers(&self, scene: &Scene<'_>, lane: Track) -> impl Iterator<Item = (f64, f64)> {
-        let ways = &scene.tracks.network.lanes[lane as usize].outgoing;
-        let on_ways = ways.iter().flat_map(move |way| self.on_way(scene, way.0));
+        let on_ways = scene.tracks.exits(lane).iter().flat_map(move |(way, _)| self.on_way(scene, *way));
         on_ways.filter(|other| other.1 < 0.0).map(|(_, rear, v)| (rear, v))
     }
 

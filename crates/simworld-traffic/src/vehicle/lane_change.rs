@@ -171,7 +171,7 @@ impl Part {
             return Some(EXIT);
         }
         let path = &self.slabs.paths(local)[rank];
-        let own = || VehicleManager::next_leg(tracks, scene.routes, vehicle, path);
+        let own = || VehicleManager::next_leg(tracks, scene.routes, (lane, vehicle), path);
         let wanted = scene.controls.next_leg(vehicle.id).or_else(own);
         let after = scene.routes.get(path.route as usize);
         let after = after.and_then(|route| route.0.get(path.leg as usize + 2..)).unwrap_or_default();

@@ -278,8 +278,8 @@ impl View<'_> {
         if !is_first || to_end > horizon(vehicle.v) + LONGEST {
             return;
         }
-        for way in &lane.scene.tracks.network.lanes[lane.track as usize].outgoing {
-            for (_, rear, v) in lane.part.on_way(lane.scene, way.0).filter(|other| other.1 < 0.0) {
+        for (way, _) in lane.scene.tracks.exits(lane.track) {
+            for (_, rear, v) in lane.part.on_way(lane.scene, *way).filter(|other| other.1 < 0.0) {
                 self.follow(to_end + rear + self.closer, v);
             }
         }

@@ -466,11 +466,17 @@ impl VehicleManager {
     }
 
     /// The leg to which a vehicle wants to go from its lane.
-    pub(super) fn next_leg(tracks: &Tracks, routes: &[Route], vehicle: &Vehicle, path: &Path) -> Option<Leg> {
+    pub(super) fn next_leg(
+        tracks: &Tracks,
+        routes: &[Route],
+        (lane, vehicle): (Track, &Vehicle),
+        path: &Path,
+    ) -> Option<Leg> {
         if let Some(route) = routes.get(path.route as usize) {
             return route.0.get(path.leg as usize + 1).copied();
         }
-        tracks.ways.get(vehicle.next as usize).map(|way| way.leg)
+        // Looked up with the lane, beside what its neighbours look up.
+        tracks.exits(lane).iter().find(|(way, _)| *way == vehicle.next).map(|(_, leg)| *leg)
     }
 
     /// Bytes that the vehicles take, hot and cold, with all that is kept for a step.

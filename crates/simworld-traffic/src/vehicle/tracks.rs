@@ -63,8 +63,6 @@ impl Obstacle {
 pub(crate) struct Way {
     pub(crate) from: Track,
     pub(crate) to: Track,
-    /// The leg to which it leads.
-    pub(crate) leg: Leg,
     /// The number of its signal group, or [`NONE`].
     pub(crate) signal: u32,
     /// Whether it turns across oncoming traffic.
@@ -294,7 +292,6 @@ fn way(network: &RoadNetwork, connection: &Connection) -> Way {
     Way {
         from: connection.from.0,
         to: connection.to.0,
-        leg: Leg::of(network, connection.to),
         signal: connection.signal.map_or(NONE, |group| group.index() as u32),
         crosses_oncoming: connection.turn == network.driving_side.turn_across(),
         stops: network.stops_at(connection.from),

@@ -288,3 +288,18 @@ fn those_far_away_keep_apart_and_wait_as_well() {
         assert!((other / near - 1.0).abs() < 1.0 / 12.0, "{near} m against {other} m");
     }
 }
+
+/// Those who begin on one walkway have numbers one after the other, parties whole.
+#[test]
+fn numbers_follow_the_walkways() {
+    let config = on_foot(300, People { in_groups: 0.6, ..People::default() });
+    let traffic = Traffic::new(grid(), &config, Seed(6)).unwrap();
+    let starts: Vec<_> = traffic.pedestrians().iter().map(|walker| walker.way().0).collect();
+    assert!(starts.is_sorted(), "{starts:?}");
+    let parties: Vec<u32> = traffic.pedestrians().iter().map(|walker| walker.party()).collect();
+    assert!(parties.iter().zip(0..).filter(|(party, number)| *party != number).count() > 60, "{parties:?}");
+    for (party, number) in parties.iter().zip(0..) {
+        let first = *party as usize;
+        assert!(first <= number && parties[first..=number].iter().all(|other| other == party), "{parties:?}");
+    }
+}
