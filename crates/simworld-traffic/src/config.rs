@@ -31,6 +31,10 @@ pub struct TrafficConfig {
     /// Whether drivers pass what stands on their lane over the oncoming one, on streets of one lane each way; without it they wait until
     /// it is gone.
     pub pass_obstacles: bool,
+    /// Share of the drivers on a trip who know how long the streets take now, in [0, 1]: once in two minutes they look ahead, and where they would
+    /// lose much time they take another way that saves a fifth of the time that is left, and a minute at least. Buses, and who is
+    /// to halt on the way, keep to their routes; give 0 where everybody is to.
+    pub informed: f64,
     /// Junctions between which all lanes are shorter than this are one to drivers, m, in [0, 30]; with 0 each is by itself. The
     /// default is what a bus needs to stand. Networks that netconvert has made are joined as they should be: give 0 for them. See
     /// [`RoadNetwork::join_near`](simworld_core::net::RoadNetwork::join_near).
@@ -62,6 +66,7 @@ impl Default for TrafficConfig {
             conditions: DrivingConditions::default(),
             no_way: NoWay::default(),
             pass_obstacles: true,
+            informed: 1.0,
             join_nearer: 13.0,
             lateral_acceleration: 2.5,
             turns: [0.6, 0.2, 0.2],
@@ -213,6 +218,7 @@ impl TrafficConfig {
             ("mobil.politeness", self.mobil.politeness, 0.0, 2.0, "0 to 2"),
             ("mobil.threshold", self.mobil.threshold, 0.0, 5.0, "0 to 5 m/s²"),
             ("mobil.safe_braking", self.mobil.safe_braking, 0.5, 8.0, "0.5 to 8 m/s²"),
+            ("informed", self.informed, 0.0, 1.0, "0 to 1"),
             ("join_nearer", self.join_nearer, 0.0, 30.0, "0 to 30 m"),
             ("lateral_acceleration", self.lateral_acceleration, 0.5, 6.0, "0.5 to 6 m/s²"),
             ("turns[0]", straight, 0.0, 1000.0, "0 to 1000"),

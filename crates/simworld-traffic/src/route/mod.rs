@@ -1,8 +1,10 @@
 //! Routes: chains of legs, a leg being one direction of a road; and the quickest one between two.
 
+mod delayed;
 #[cfg(feature = "hierarchy")]
 mod hierarchy;
 
+pub(crate) use delayed::Search;
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{LegHierarchy, LegScratch};
 use petgraph::algo::astar;
@@ -125,6 +127,7 @@ fn leads_to(network: &RoadNetwork, from: Leg, to: Leg) -> bool {
 #[derive(Clone, Debug)]
 pub struct Router {
     graph: DiGraph<(), f64, u32>,
+    legs: delayed::Legs,
 }
 
 impl Router {
@@ -145,10 +148,10 @@ impl Router {
         // One edge a pair of legs, the quickest of the ways between their lanes.
         known.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
         known.dedup_by_key(|edge| (edge.0, edge.1));
-        for (from, to, time) in known {
-            graph.add_edge(NodeIndex::new(from.0 as usize), NodeIndex::new(to.0 as usize), time);
+        for (from, to, time) in &known {
+            graph.add_edge(NodeIndex::new(from.0 as usize), NodeIndex::new(to.0 as usize), *time);
         }
-        Self { graph }
+        Self { graph, legs: delayed::Legs::new(network, &known) }
     }
 
     /// The quickest route from one leg to another, both included; `None` if there is none.

@@ -23,6 +23,8 @@ pub struct Counters {
     pub obstacles_passed: u64,
     /// Vehicles that took another route because they could not get into the lane of theirs, or to undo a lock.
     pub rerouted: u64,
+    /// Vehicles that took another route because theirs had become slow.
+    pub detours: u64,
     /// Rings of full lanes, each waiting for the next, that were found and undone.
     pub locks: u64,
     /// Vehicles that entered a junction without room behind it to undo a lock.
@@ -62,6 +64,7 @@ impl Counters {
             lane_changes,
             obstacles_passed,
             rerouted,
+            detours,
             locks,
             passes,
             halts,
@@ -84,6 +87,7 @@ impl Counters {
         self.lane_changes += lane_changes;
         self.obstacles_passed += obstacles_passed;
         self.rerouted += rerouted;
+        self.detours += detours;
         self.locks += locks;
         self.passes += passes;
         self.halts += halts;

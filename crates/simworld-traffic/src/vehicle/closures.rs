@@ -149,10 +149,13 @@ impl Closures {
         avoid: Option<(Leg, Leg)>,
     ) -> Option<Route> {
         tracks.router.quickest_between(from, to, |before, leg| {
-            !self.has_leg(tracks, leg)
-                && self.parted.binary_search(&(before, leg)).is_err()
-                && avoid != Some((before, leg))
+            self.leads_on(tracks, before, leg) && avoid != Some((before, leg))
         })
+    }
+
+    /// Whether one can go on from a leg to one that follows it.
+    pub(super) fn leads_on(&self, tracks: &Tracks, before: Leg, leg: Leg) -> bool {
+        !self.has_leg(tracks, leg) && self.parted.binary_search(&(before, leg)).is_err()
     }
 }
 
@@ -181,7 +184,13 @@ impl VehicleManager {
     }
 
     /// Chooses the way on anew for who has no leave to cross yet.
-    fn redirect(&mut self, mind: (&Tracks, &TrafficConfig), streams: Stream, track: Track, rank: usize) {
+    pub(super) fn redirect(
+        &mut self,
+        mind: (&Tracks, &TrafficConfig),
+        streams: Stream,
+        track: Track,
+        rank: usize,
+    ) {
         let (tracks, _) = mind;
         let (vehicle, mut path) = (self.queue(tracks, track)[rank], self.paths(tracks, track)[rank]);
         let way = vehicle.next;

@@ -55,11 +55,11 @@ impl Waits {
     }
 }
 
-/// Whether a second ends with a step of `dt` s. Times are reckoned from the number of steps: with those that a step is added to or
+/// Whether a stretch of time that comes again and again, s, ends with a step of `dt` s. Times are reckoned from the number of steps: with those that a step is added to or
 /// taken from, rounding passes over whole rows of seconds.
-fn is_due(step: u64, dt: f64) -> bool {
-    let second = |step: u64| (step as f64 * dt / EVERY).floor();
-    second(step) != second(step + 1)
+pub(super) fn is_due(step: u64, dt: f64, every: f64) -> bool {
+    let count = |step: u64| (step as f64 * dt / every).floor();
+    count(step) != count(step + 1)
 }
 
 impl VehicleManager {
@@ -71,7 +71,7 @@ impl VehicleManager {
         at: Moment,
         counters: &mut Counters,
     ) {
-        if !is_due(at.step, at.dt) {
+        if !is_due(at.step, at.dt, EVERY) {
             return;
         }
         let mut waits = std::mem::take(&mut self.waits);
@@ -350,7 +350,7 @@ mod tests {
         // A clock that counts microseconds makes the second of a tenth.
         for dt in [0.1, 100_000.0 * 1e-6, 0.04, 0.25, 1.0 / 3.0, 1.0 / 60.0] {
             let steps = (4000.5 / dt) as u64;
-            let due: Vec<u64> = (0..steps).filter(|step| is_due(*step, dt)).collect();
+            let due: Vec<u64> = (0..steps).filter(|step| is_due(*step, dt, EVERY)).collect();
             assert_eq!(due.len(), 4000, "with steps of {dt} s");
             let apart = due.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * dt);
             assert!(apart.clone().all(|apart| (apart - EVERY).abs() < 1.01 * dt), "with steps of {dt} s");

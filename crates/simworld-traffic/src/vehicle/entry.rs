@@ -118,8 +118,8 @@ impl VehicleManager {
         }
         let route = self.closures.quickest(tracks, first, last)?;
         // Who leaves the map by the same route wanted to go elsewhere.
-        let is_same =
-            |index: &u32| self.routes[*index as usize] == route && self.off.binary_search(index).is_err();
+        let is_lasting = |index: &u32| self.off.binary_search(index).is_err() && !self.detours.has(*index);
+        let is_same = |index: &u32| self.routes[*index as usize] == route && is_lasting(index);
         let known = (0..self.routes.len() as u32).rev().find(is_same);
         let route = known.unwrap_or_else(|| self.add_route(route));
         Some(Departure { route, ..*departure })
@@ -176,6 +176,7 @@ impl VehicleManager {
         self.halts.remove(id);
         self.controls.forget(id);
         self.rounds.forget(id);
+        self.detours.forget(id);
         self.sirens.switch(id, false);
         self.free.push(id);
         self.ended.push(trip(tracks, config, track, (&vehicle, &path), end, now));

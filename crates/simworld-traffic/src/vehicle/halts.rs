@@ -89,6 +89,11 @@ impl Halts {
         self.lists.range(from..).find(|(_, list)| parks(list)).map(|(id, _)| *id)
     }
 
+    /// Whether a vehicle has any.
+    pub(super) fn has(&self, id: u32) -> bool {
+        self.lists.contains_key(&id)
+    }
+
     /// Whether nobody has any.
     pub(super) fn is_empty(&self) -> bool {
         self.lists.is_empty()

@@ -20,6 +20,8 @@ use super::closures::Closures;
 use super::clusters::{Permit, Wish};
 use super::controls::{Controls, hasty};
 use super::deadlock::Waits;
+use super::delays::Delays;
+use super::detours::Detours;
 use super::entry::route_way;
 use super::halts::Halts;
 use super::junction::Junctions;
@@ -238,6 +240,9 @@ pub(crate) struct VehicleManager {
     /// Who is driven by somebody else.
     pub(super) controls: Controls,
     pub(super) rounds: Rounds,
+    /// How long the streets take now, and the routes of those who left theirs for it.
+    pub(super) delays: Delays,
+    pub(super) detours: Detours,
     /// Who has a siren on.
     pub(crate) sirens: Sirens,
     /// Who passes what stands on a lane.
@@ -379,6 +384,7 @@ impl VehicleManager {
         workers: &dyn Workers,
     ) {
         self.unlock(tracks, config, at, counters);
+        self.think_over(tracks, config, streams, at, counters);
         self.steer(tracks, config, streams);
         self.come_round(tracks, config, streams);
         self.mind_haste(config);
@@ -439,6 +445,7 @@ impl VehicleManager {
             self.halts.remove(trip.id);
             self.controls.forget(trip.id);
             self.rounds.forget(trip.id);
+            self.detours.forget(trip.id);
             self.sirens.switch(trip.id, false);
             self.free.push(trip.id);
         }

@@ -8,6 +8,8 @@ mod clusters;
 mod conflicts;
 mod controls;
 mod deadlock;
+mod delays;
+mod detours;
 mod entry;
 mod following;
 pub(crate) mod gaps;

@@ -24,6 +24,10 @@ impl Rounds {
         self.0.retain(|(own, _)| *own != id);
     }
 
+    pub(super) fn has(&self, id: u32) -> bool {
+        self.0.iter().any(|(own, _)| *own == id)
+    }
+
     pub(super) fn fits(&self, tracks: &Tracks, numbers: usize) -> bool {
         self.0.iter().all(|(id, leg)| (*id as usize) < numbers && !leg.lanes(&tracks.network).is_empty())
     }

@@ -35,6 +35,8 @@ impl VehicleManager {
                 &self.whereabouts.iter().collect::<Vec<_>>(),
             )
             && self.rounds.fits(tracks, count)
+            && self.delays.fits(tracks)
+            && self.detours.fits(count, self.routes.len())
             && self.sirens.fits(count)
             && self.passings.fits(tracks, count)
             && self.free.iter().all(|id| (*id as usize) < count)

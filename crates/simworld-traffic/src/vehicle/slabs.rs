@@ -184,8 +184,8 @@ impl Slabs {
         let start = self.vehicles.len();
         let end = start + room(size);
         if end > self.vehicles.capacity() {
-            // By a sixteenth, not by half: what is spare is spare for every vehicle of the city.
-            let more = (start / 16).max(room(size)).max(16);
+            // By a thirty-second, not by half: what is spare is spare for every vehicle of the city.
+            let more = (start / 32).max(room(size)).max(16);
             self.vehicles.reserve_exact(more);
             self.paths.reserve_exact(more);
         }
@@ -244,6 +244,20 @@ mod tests {
     #[test]
     fn sizes_grow_by_a_half_and_a_third() {
         assert!((0..11).map(room).eq([0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32]));
+    }
+
+    #[test]
+    fn little_is_spare() {
+        let mut slabs = Slabs::new(500);
+        for round in 0..20 {
+            for track in 0..500 {
+                let (vehicle, path) = vehicle(round);
+                slabs.push(track, vehicle, path);
+                let (used, has) = (slabs.vehicles.len(), slabs.vehicles.capacity());
+                assert!(has - used <= used / 32 + 32, "room for {has}, of which {used} are used");
+                assert_eq!(slabs.paths.capacity(), has);
+            }
+        }
     }
 
     proptest! {

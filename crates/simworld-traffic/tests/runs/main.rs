@@ -18,6 +18,7 @@ mod pictures_tell_the_truth;
 mod same_bits_every_time;
 mod signals_keep_their_word;
 mod signals_learn;
+mod slow_streets_are_left;
 mod streets_are_closed;
 mod threads_do_not_matter;
 mod traffic_comes_and_goes;
