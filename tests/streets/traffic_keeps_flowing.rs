@@ -61,7 +61,9 @@ impl Demand {
 /// Four hours of a city, or some minutes, in four parts: some turn at random, the others are on trips.
 fn run(name: &str, network: &Arc<RoadNetwork>, minutes: f64) -> Seen {
     let wanted = (DENSITY * lane_kilometres(network)) as usize;
-    let config = TrafficConfig { vehicles: wanted as u32 / 4, pedestrians: 0, ..TrafficConfig::default() };
+    // Whoever is on a trip knows how long the streets take, as most do who drive today.
+    let (vehicles, pedestrians, informed) = (wanted as u32 / 4, 0, 1.0);
+    let config = TrafficConfig { vehicles, pedestrians, informed, ..TrafficConfig::default() };
     let mut traffic = Traffic::new(Arc::clone(network), &config, Seed(1)).expect("the settings are in range");
     traffic.set_policy(Box::new(Actuated::default()));
     let placed = u64::from(traffic.placed().vehicles);

@@ -52,7 +52,11 @@ impl Around {
         let middle = grid.middle(cell);
         for (ranks, mark) in grid.around(at) {
             self.make_room(ranks.len());
-            for (rank, _) in ranks.clone().zip(grid.marks(ranks)).filter(|(rank, other)| (**other == mark) & (*rank != oneself)) {
+            for (rank, _) in ranks
+                .clone()
+                .zip(grid.marks(ranks))
+                .filter(|(rank, other)| (**other == mark) & (*rank != oneself))
+            {
                 let seen = &grid.seen()[rank];
                 self.x[self.count] = (seen.at[0] - middle.x) as f32;
                 self.y[self.count] = (seen.at[1] - middle.y) as f32;
