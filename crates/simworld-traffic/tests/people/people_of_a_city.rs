@@ -9,7 +9,8 @@ use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_traffic::{
-    AtDestination, Foreign, Interest, People, Traffic, TrafficConfig, TrafficDynamics, TrafficError, TripEnd,
+    AtDestination, Foreign, Interest, Pedestrian, People, Traffic, TrafficConfig, TrafficDynamics,
+    TrafficError, TripEnd,
 };
 
 fn grid() -> Arc<RoadNetwork> {
@@ -296,7 +297,7 @@ fn numbers_follow_the_walkways() {
     let traffic = Traffic::new(grid(), &config, Seed(6)).unwrap();
     let starts: Vec<_> = traffic.pedestrians().iter().map(|walker| walker.way().0).collect();
     assert!(starts.is_sorted(), "{starts:?}");
-    let parties: Vec<u32> = traffic.pedestrians().iter().map(|walker| walker.party()).collect();
+    let parties: Vec<u32> = traffic.pedestrians().iter().map(Pedestrian::party).collect();
     assert!(parties.iter().zip(0..).filter(|(party, number)| *party != number).count() > 60, "{parties:?}");
     for (party, number) in parties.iter().zip(0..) {
         let first = *party as usize;

@@ -329,7 +329,9 @@ fn who_need_not_be_asked_would_have_answered_the_same() {
                 }
                 399 if step > 4000 => {
                     let mut plans = traffic.plans().to_vec();
-                    plans.iter_mut().for_each(|plan| plan.offset += 7.3);
+                    for plan in &mut plans {
+                        plan.offset += 7.3;
+                    }
                     traffic.set_plans(plans).expect("they are for the same groups");
                 }
                 _ => {}
