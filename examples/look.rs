@@ -43,7 +43,7 @@ struct Arguments {
     #[arg(long, value_name = "YYYY-MM-DD", value_parser = date, default_value = "2026-04-29")]
     date: (i32, u32),
     /// Degrees north of the equator, from -90 to 90.
-    #[arg(long, value_name = "DEGREES", default_value_t = 40.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees_north, default_value = "40", allow_negative_numbers = true)]
     latitude: f64,
     /// Pixels across one picture.
     #[arg(long, default_value_t = 448)]
@@ -51,6 +51,11 @@ struct Arguments {
     /// The folder to write to.
     #[arg(long, value_name = "DIR", default_value = "out/look")]
     out: PathBuf,
+}
+
+fn degrees_north(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().ok().filter(|degrees: &f64| (-90.0..=90.0).contains(degrees));
+    degrees.ok_or_else(|| format!("{text:?} is no latitude: give -90 to 90 degrees"))
 }
 
 fn hour(text: &str) -> Result<f64, String> {
@@ -80,7 +85,12 @@ fn main() -> ExitCode {
 fn populate(arguments: &Arguments) -> Outcome<(City, World)> {
     let seed = Seed(arguments.seed);
     let city = match &arguments.city {
-        Some(path) => City::load(path)?,
+        Some(path) => City::load(path).map_err(|error| {
+            format!(
+                "{} is no city that can be loaded: {error}; the example `city` writes one",
+                path.display()
+            )
+        })?,
         None => City::generate(&CityConfig::with_roads(60), seed)?,
     };
     let mut world = World::new();

@@ -81,7 +81,7 @@ pub enum SourceError {
         source: FormatError,
     },
     /// A saved city that cannot be loaded.
-    #[error("{path}: {source}")]
+    #[error("{path} is no city that can be loaded: {source}; the example `city` writes one")]
     Saved {
         /// Which file.
         path: PathBuf,

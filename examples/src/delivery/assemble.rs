@@ -51,7 +51,7 @@ pub enum AssembleError {
         source: FormatError,
     },
     /// The saved city cannot be loaded.
-    #[error("{path}: {source}")]
+    #[error("{path} is no city that can be loaded: {source}; the example `city` writes one")]
     Saved {
         /// Which file.
         path: PathBuf,
