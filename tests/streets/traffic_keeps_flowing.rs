@@ -58,14 +58,18 @@ impl Demand {
     }
 }
 
+/// So many who turn at random; whoever comes on a trip knows how long the streets take, as most do who drive today.
+fn turning(network: &Arc<RoadNetwork>, vehicles: u32) -> Traffic {
+    let config = TrafficConfig { vehicles, pedestrians: 0, informed: 1.0, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::clone(network), &config, Seed(1)).expect("the settings are in range");
+    traffic.set_policy(Box::new(Actuated::default()));
+    traffic
+}
+
 /// Four hours of a city, or some minutes, in four parts: some turn at random, the others are on trips.
 fn run(name: &str, network: &Arc<RoadNetwork>, minutes: f64) -> Seen {
     let wanted = (DENSITY * lane_kilometres(network)) as usize;
-    // Whoever is on a trip knows how long the streets take, as most do who drive today.
-    let (vehicles, pedestrians, informed) = (wanted as u32 / 4, 0, 1.0);
-    let config = TrafficConfig { vehicles, pedestrians, informed, ..TrafficConfig::default() };
-    let mut traffic = Traffic::new(Arc::clone(network), &config, Seed(1)).expect("the settings are in range");
-    traffic.set_policy(Box::new(Actuated::default()));
+    let mut traffic = turning(network, wanted as u32 / 4);
     let placed = u64::from(traffic.placed().vehicles);
     let mut demand = Demand { trips: Trips::new(network), wanted, sent: 0 };
     let mut since: Vec<f64> = Vec::new();
