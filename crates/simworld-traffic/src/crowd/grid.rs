@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::Workers;
 
 use super::Person;
@@ -190,7 +190,7 @@ impl Grid {
             let (column, row) = cell(at, self.per_metre);
             return [(column - 1, row - 1), (column + 1, row + 1)];
         }
-        let reach = nalgebra::Vector2::repeat(self.reach);
+        let reach = Vector2::repeat(self.reach);
         [cell(at - reach, self.per_metre), cell(at + reach, self.per_metre)]
     }
 
@@ -204,12 +204,17 @@ impl Grid {
 
     /// The cell, as wide as one sees, in which a place lies.
     pub(super) fn cell(&self, at: Point2) -> Cell {
-        cell(at, 1.0 / self.reach)
+        cell(at, self.cells_seen())
     }
 
     /// The middle of such a cell, m.
     pub(super) fn middle(&self, cell: Cell) -> Point2 {
-        Point2::new(cell.0 as f64 + 0.5, cell.1 as f64 + 0.5) / (1.0 / self.reach)
+        Point2::new(cell.0 as f64 + 0.5, cell.1 as f64 + 0.5) / self.cells_seen()
+    }
+
+    /// Cells a metre that are as wide as one sees.
+    fn cells_seen(&self) -> f64 {
+        1.0 / self.reach
     }
 
     /// Bytes that it takes.
@@ -252,7 +257,6 @@ fn mixed((column, row): Cell) -> u64 {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use simworld_core::geometry::Vector2;
     use simworld_core::net::Alone;
 
     use super::*;

@@ -41,12 +41,12 @@ impl Around {
 
     /// Looks around the place of the one of a rank; in a crowd not again for those of one cell, one after the other.
     pub(super) fn look(&mut self, grid: &Grid, at: Point2, rank: usize) {
-        let cell = grid.cell(at);
-        // Elsewhere there is seldom anybody else, and whoever looks need not be looked up.
-        let oneself = if grid.is_crowd() { usize::MAX } else { rank };
-        if self.cell == Some(cell) && grid.is_crowd() {
+        let (cell, is_crowd) = (grid.cell(at), grid.is_crowd());
+        if is_crowd && self.cell == Some(cell) {
             return;
         }
+        // Elsewhere there is seldom anybody else, and whoever looks need not be looked up.
+        let is_seen = |other: usize| is_crowd | (other != rank);
         self.cell = Some(cell);
         self.count = 0;
         let middle = grid.middle(cell);
@@ -55,7 +55,7 @@ impl Around {
             for (rank, _) in ranks
                 .clone()
                 .zip(grid.marks(ranks))
-                .filter(|(rank, other)| (**other == mark) & (*rank != oneself))
+                .filter(|(rank, other)| (**other == mark) & is_seen(*rank))
             {
                 let seen = &grid.seen()[rank];
                 self.x[self.count] = (seen.at[0] - middle.x) as f32;

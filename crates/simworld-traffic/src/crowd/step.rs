@@ -85,7 +85,7 @@ impl Crowd {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
             scratch.around.forget();
             for (block, decisions) in decisions.chunks_mut(BLOCK).enumerate() {
-                scratch.decide(&rules, (grid, grid.is_crowd()), herd, first + block * BLOCK, decisions);
+                scratch.decide(&rules, grid, herd, first + block * BLOCK, decisions);
             }
         });
     }
@@ -115,7 +115,7 @@ impl Scratch {
     fn decide(
         &mut self,
         rules: &Rules,
-        (grid, by_rank): (&Grid, bool),
+        grid: &Grid,
         herd: &impl Herd,
         first: usize,
         decisions: &mut [Decision],
@@ -123,7 +123,7 @@ impl Scratch {
         self.looks.clear();
         self.walls.clear();
         self.ends.clear();
-        let places = first..first + decisions.len();
+        let (places, by_rank) = (first..first + decisions.len(), grid.is_crowd());
         let number = |place: usize| if by_rank { grid.seen()[place].index as usize } else { place };
         black_box(places.clone().fold(0, |all, place| all ^ herd.touch(number(place))));
         for place in places.clone() {

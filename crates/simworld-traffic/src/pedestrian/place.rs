@@ -65,8 +65,7 @@ impl PedestrianManager {
             let character = Character::draw(&profiles, config, &mut rng);
             let mut tries = (0..TRIES).filter_map(|_| draw(ways, &walkways, character.keep_right, &mut rng));
             let Some((entry, half)) = tries.find(|(entry, _)| taken.take(entry.position)) else {
-                self.number_by_place();
-                return first;
+                break;
             };
             self.walkers.push(walker(&character, &entry, ways, first));
             for rank in 1..size {
@@ -78,7 +77,7 @@ impl PedestrianManager {
             self.introduce(first);
         }
         self.number_by_place();
-        config.pedestrians
+        self.walkers.len() as u32
     }
 
     /// Numbers parties in the order of the walkways on which they begin: those who are near one another in the city lie near one
