@@ -96,8 +96,23 @@ pub(super) fn free(place: Place, rng: &mut StreamRng, is_taken: impl Fn(&str) ->
 /// memory that it needs, and at once: a large city has hundreds of thousands of names.
 fn spelled(nouns: &[&str], index: usize, round: usize) -> String {
     let (epithet, noun) = (EPITHETS[index % EPITHETS.len()], nouns[index / EPITHETS.len()]);
-    let number = if round == 0 { String::new() } else { format!(" {}", round + 1) };
-    [epithet, " ", noun, &number].concat()
+    let number = round + 1;
+    let digits = if round == 0 { 0 } else { 2 + number.ilog10() as usize };
+    let mut name = String::with_capacity(epithet.len() + 1 + noun.len() + digits);
+    name.extend([epithet, " ", noun]);
+    if round > 0 {
+        name.push(' ');
+        push_number(&mut name, number);
+    }
+    name
+}
+
+/// Writes a number in digits, without the room that formatting would take for it.
+fn push_number(text: &mut String, number: usize) {
+    if number >= 10 {
+        push_number(text, number / 10);
+    }
+    text.push(char::from(b'0' + (number % 10) as u8));
 }
 
 /// Step from one name to the next; a prime greater than any number of words.

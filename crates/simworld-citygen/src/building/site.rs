@@ -127,16 +127,17 @@ impl<'a> Site<'a> {
 
 /// From where to where an outline reaches at a height.
 fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
-    let mut span: Option<(f64, f64)> = None;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut a = *outline.last()?;
     for b in outline {
-        if (a.y > y) != (b.y > y) {
-            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-            span = Some(span.map_or((x, x), |(low, high)| (low.min(x), high.max(x))));
-        }
+        // Reckoned for every side and kept of those that cross: which they are differs from lot to lot.
+        let crosses = (a.y > y) != (b.y > y);
+        let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+        low = if crosses & (x < low) { x } else { low };
+        high = if crosses & (x > high) { x } else { high };
         a = *b;
     }
-    span
+    (low <= high).then_some((low, high))
 }
 
 /// The point of a path nearest to another.

@@ -158,6 +158,8 @@ pub(super) struct Asked {
     /// For numbers of the same lowest bits, the last one that was told, and the question it was an answer to.
     told: Vec<u64>,
     question: u32,
+    /// What stands in the squares, as often as it does, from one on; behind it what was read along with it.
+    found: Vec<u32>,
     numbers: Vec<u32>,
 }
 
@@ -166,42 +168,77 @@ const TOLD: usize = 256;
 
 impl Default for Asked {
     fn default() -> Self {
-        Self { told: vec![0; TOLD], question: 0, numbers: Vec::new() }
+        Self { told: vec![0; TOLD], question: 0, found: Vec::new(), numbers: Vec::new() }
     }
 }
 
 impl Asked {
     /// The numbers in the squares that a box touches. One that shares its lowest bits with another may be told twice.
     pub(super) fn ask(&mut self, cells: &Cells, bounds: &Bounds) -> &[u32] {
+        let found = self.find(cells, bounds);
+        if self.numbers.len() < found {
+            self.numbers.resize(found, 0);
+        }
         self.question = self.question.wrapping_add(1);
         let question = u64::from(self.question) << 32;
-        let [columns, rows] = cells.squares(bounds);
         let mut count = 0;
+        for number in &self.found[..found] {
+            // Whether it is new decides nothing but where the next one is written.
+            self.numbers[count] = *number - 1;
+            let told = &mut self.told[*number as usize % TOLD];
+            let tells = question | u64::from(*number);
+            count += usize::from(*told != tells);
+            *told = tells;
+        }
+        &self.numbers[..count]
+    }
+
+    /// Puts together what stands in the squares that a box touches, and returns how much it is.
+    fn find(&mut self, cells: &Cells, bounds: &Bounds) -> usize {
+        let [columns, rows] = cells.squares(bounds);
+        let (wide, high) = (columns.end() + 1 - columns.start(), rows.end() + 1 - rows.start());
+        if self.found.len() < (wide * high + 1) * ROOM {
+            self.found.resize((wide * high + 1) * ROOM, 0);
+        }
+        // All squares are read before anything is decided by what is in them: no read waits for another.
+        let (mut count, mut more) = (0, 0);
+        for row in rows.clone() {
+            let start = row * cells.columns + columns.start();
+            for square in &cells.blocks[start..start + wide] {
+                self.found[count..count + ROOM].copy_from_slice(&square[..ROOM]);
+                count += filled(square);
+                more |= square[ROOM];
+            }
+        }
+        if more == 0 { count } else { self.find_more(cells, [columns, rows], count) }
+    }
+
+    /// Goes on with what the squares have no room for.
+    fn find_more(
+        &mut self,
+        cells: &Cells,
+        [columns, rows]: [RangeInclusive<usize>; 2],
+        mut count: usize,
+    ) -> usize {
         for row in rows {
             let row = row * cells.columns;
             for square in &cells.blocks[row + columns.start()..=row + columns.end()] {
                 let mut block = square;
-                loop {
-                    if self.numbers.len() < count + ROOM {
-                        self.numbers.resize(count + 8 * ROOM, 0);
-                    }
-                    for number in block[..ROOM].iter().take_while(|number| **number != 0) {
-                        // Whether it is new decides nothing but where the next one is written.
-                        self.numbers[count] = *number - 1;
-                        let told = &mut self.told[*number as usize % TOLD];
-                        let tells = question | u64::from(*number);
-                        count += usize::from(*told != tells);
-                        *told = tells;
-                    }
-                    if block[ROOM] == 0 {
-                        break;
-                    }
+                while block[ROOM] != 0 {
                     block = &cells.blocks[block[ROOM] as usize];
+                    self.found.truncate(count);
+                    self.found.extend_from_slice(&block[..filled(block)]);
+                    count = self.found.len();
                 }
             }
         }
-        &self.numbers[..count]
+        count
     }
+}
+
+/// How many numbers stand in a block: they fill it from its begin.
+fn filled(block: &Block) -> usize {
+    block[..ROOM].iter().map(|number| u32::from(*number != 0)).sum::<u32>() as usize
 }
 
 /// Lines are taken to be wider than they are by so much to both sides, m.

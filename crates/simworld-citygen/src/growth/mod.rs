@@ -13,6 +13,7 @@ mod fabric;
 mod field;
 mod finish;
 mod fitted;
+mod order;
 mod proposal;
 mod queue;
 mod within;
@@ -133,7 +134,8 @@ impl<'a> Growth<'a> {
 
     /// Builds a proposal if it fits, and proposes the ways on from a new junction.
     fn try_to_build(&mut self, end: &End) {
-        let Some(fitted) = self.fitter.fit(&self.fabric, &end.proposal, &self.measures) else { return };
+        let proposal = self.proposal(end);
+        let Some(fitted) = self.fitter.fit(&self.fabric, &proposal, &self.measures) else { return };
         let limit = if self.rng.chance(self.config.crossroads) { 4 } else { 3 };
         let before = self.fabric.segments().len();
         let node = self.fabric.build(&fitted, limit);
@@ -160,24 +162,24 @@ impl<'a> Growth<'a> {
 
     /// Proposes the ways on from a new junction: straight, left and right.
     fn branch(&mut self, end: &End, node: u32) {
-        let End { steps, heading: came, proposal: from } = *end;
+        let End { steps, heading: came, class, .. } = *end;
         let site = self.field.site(self.fabric.at(node));
         let start = Start::Node(node);
-        let main = from.class != RoadClass::Local;
+        let main = class != RoadClass::Local;
         let goes_on = main || self.rng.chance(self.config.continuation);
         let towards = self.guided(&site, came);
         if goes_on {
             // Depth runs ahead: a continuation costs less than a branch, and that of a main road least.
-            let step = [1.0, 0.6, 0.4][from.class as usize];
-            self.push(steps + step / (1.0 + self.config.depth_bias), (start, &site), towards, from.class);
+            let step = [1.0, 0.6, 0.4][class as usize];
+            self.push(steps + step / (1.0 + self.config.depth_bias), (start, &site), towards, class);
         } else {
             self.push_division(steps, (start, &site), towards);
         }
         let first = if self.rng.chance(0.5) { FRAC_PI_2 } else { -FRAC_PI_2 };
-        let delay = if from.class == RoadClass::Highway { HIGHWAY_DELAY } else { 0.0 };
+        let delay = if class == RoadClass::Highway { HIGHWAY_DELAY } else { 0.0 };
         for side in [first, -first] {
             if self.rng.chance(self.config.branching) {
-                let class = self.class_of_branch(from.class);
+                let class = self.class_of_branch(class);
                 let cost = delay + self.rng.uniform(0.7, 1.2);
                 let towards = self.guided(&site, came + side);
                 self.push(steps + cost, (start, &site), towards, class);
@@ -216,43 +218,58 @@ impl<'a> Growth<'a> {
         self.push(0.0, (Start::Node(node), &site), towards, RoadClass::Local);
     }
 
-    fn push(&mut self, steps: f64, (from, site): (Start, &Site), heading: f64, class: RoadClass) {
-        self.enqueue(steps, (from, site), heading, class, 0.0);
+    fn push(&mut self, steps: f64, from: (Start, &Site), heading: f64, class: RoadClass) {
+        self.enqueue(steps, from, (heading, class), false);
     }
 
     /// Proposes a local street that is built only where it divides a large block.
-    fn push_division(&mut self, steps: f64, (from, site): (Start, &Site), heading: f64) {
-        let emptiness = 0.5 * self.config.widest_block * breadth(site.density);
-        self.enqueue(steps + DIVISION_DELAY, (from, site), heading, RoadClass::Local, emptiness);
+    fn push_division(&mut self, steps: f64, from: (Start, &Site), heading: f64) {
+        self.enqueue(steps + DIVISION_DELAY, from, (heading, RoadClass::Local), true);
     }
 
     fn enqueue(
         &mut self,
         steps: f64,
         (from, site): (Start, &Site),
-        heading: f64,
-        class: RoadClass,
-        emptiness: f64,
+        (heading, class): (f64, RoadClass),
+        divides: bool,
     ) {
         let density = site.density;
-        let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
-        // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
         let spread = (self.config.length_variation * bell(&mut self.rng)).clamp(-0.75, 1.3);
-        // Blocks are longer along the grain than across it.
-        let side = self.config.aspect.sqrt();
-        let side = if site.runs_along(heading) { side } else { 1.0 / side };
-        let wanted = self.config.length * stride * side * simworld_core::ops::exp(spread) * breadth(density);
-        // Nothing longer would be allowed; nor anything shorter, and without main roads there would be no city.
-        let least = if class == RoadClass::Local { 0.0 } else { 1.01 * self.measures.least_length };
-        let length = wanted.clamp(least, 0.99 * self.measures.most_length);
-        let proposal = Proposal { from, along: direction(heading), length, class, emptiness };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
         let remoteness = site.remoteness / self.config.length * (1.25 - 0.5 * density);
         // Highways run ahead as far as the town will reach, not beyond.
         let in_town = site.remoteness < TOWN * self.field.radius();
         let waits = if class == RoadClass::Highway && in_town { 0.3 } else { 1.0 };
         let cost = steps + self.config.compactness * remoteness * waits;
-        self.queue.push(cost, End { steps, heading, proposal });
+        let with_grain = site.runs_along(heading);
+        self.queue.push(cost, End { steps, heading, spread, density, from, class, with_grain, divides });
+    }
+
+    /// What an end would like to build.
+    fn proposal(&self, end: &End) -> Proposal {
+        let End { heading, from, class, .. } = *end;
+        let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
+        // Blocks are longer along the grain than across it.
+        let side = self.config.aspect.sqrt();
+        let side = if end.with_grain { side } else { 1.0 / side };
+        // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
+        let spread = simworld_core::ops::exp(end.spread);
+        let wanted = self.config.length * stride * side * spread * breadth(end.density);
+        // Nothing longer would be allowed; nor anything shorter, and without main roads there would be no city.
+        let least = if class == RoadClass::Local { 0.0 } else { 1.01 * self.measures.least_length };
+        let length = wanted.clamp(least, 0.99 * self.measures.most_length);
+        let emptiness = if end.divides { 0.5 * self.config.widest_block * breadth(end.density) } else { 0.0 };
+        Proposal { from, along: direction(heading), length, class, emptiness }
+    }
+
+    /// The segments that are streets still, in the order of their numbers in the plan.
+    fn in_order(&self) -> Vec<u32> {
+        let mut standing = Vec::with_capacity(self.standing);
+        standing
+            .extend((0..self.fabric.segments().len() as u32).filter(|index| self.fabric.is_standing(*index)));
+        let middle = |index| self.fabric.start(Start::Middle(index));
+        order::by_land(standing, self.field.radius(), self.config.length, middle)
     }
 
     /// The grown streets as a plan, some of them bent between their ends.
@@ -262,9 +279,8 @@ impl<'a> Growth<'a> {
         plan.streets.reserve_exact(self.standing);
         plan.nodes.reserve(self.standing / 2);
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
-        let standing = |index: &usize| self.fabric.is_standing(*index as u32);
-        for index in (0..self.fabric.segments().len()).filter(standing) {
-            let segment = self.fabric.segment(index as u32);
+        for index in self.in_order() {
+            let segment = self.fabric.segment(index);
             let ends = [segment.from, segment.to].map(|node| {
                 let number = &mut numbers[node as usize];
                 if *number == u32::MAX {
@@ -273,12 +289,12 @@ impl<'a> Growth<'a> {
                 }
                 *number as usize
             });
-            let mut rng = bends.indexed(index as u64).rng();
+            let mut rng = bends.indexed(u64::from(index)).rng();
             let bent = segment.class != RoadClass::Highway && rng.chance(self.config.bends);
             let section = sections[segment.class as usize];
             let reach = plan.sections[section as usize].left_of_reference();
             plan.streets.push(Street {
-                via: if bent { self.course(&curves, index as u32, reach, &mut rng) } else { Vec::new() },
+                via: if bent { self.course(&curves, index, reach, &mut rng) } else { Vec::new() },
                 class: segment.class,
                 section,
                 ..Street::simple(ends[0], ends[1])

@@ -216,7 +216,8 @@ impl<'a> Measured<'a> {
         out.push(self.point_at(to.max(from)));
     }
 
-    fn point_at(&self, station: f64) -> Point2 {
+    /// See [`at`]; only the point.
+    pub fn point_at(&self, station: f64) -> Point2 {
         let mut left = station.max(0.0);
         let mut last = self.path.first().copied().unwrap_or_else(Point2::origin);
         for (pair, span) in self.path.windows(2).zip(&self.spans).filter(|(_, span)| **span != 0.0) {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::beside::Kerb;
 use super::legs::Leg;
 use super::trace::{Trace, Traces};
 use super::{cycles, hammerhead, kerbs, near_side};
@@ -33,6 +34,7 @@ struct Builder {
     claims: Vec<Claim>,
     met: Vec<Meeting>,
     crossings: Vec<CrossingId>,
+    kerb: Kerb,
 }
 
 /// The connections of some intersections that follow one another, with numbers from zero on. Lanes, crossings and signals
@@ -113,7 +115,7 @@ impl Builder {
                     // Ways from one lane follow one another, and its end is far from its beginning.
                     _ => arrival.insert((movement.0, end_of(network, movement.0))).1,
                 };
-                self.made.push(connection(network, &place, arrival, *movement, signal));
+                self.made.push(connection(network, &place, arrival, *movement, signal, &mut self.kerb));
             }
         }
         self.traces.clear();
@@ -263,8 +265,8 @@ fn path(
     network: &RoadNetwork,
     place: &Place<'_>,
     (start, arriving_along): (Point2, Vector2),
-    (from, to): (LaneId, LaneId),
-    turn: Turn,
+    (from, to, turn): (LaneId, LaneId, Turn),
+    kerb: &mut Kerb,
 ) -> Vec<Point2> {
     let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
@@ -290,8 +292,8 @@ fn path(
         return smooth;
     }
     let way = near_side::Way { from: leg, start, to: &place.legs[next], end };
-    let corner = near_side::kerb(&network.intersections[place.id.index()], place.leg);
-    near_side::keep_off(network, corner, &way, smooth)
+    let corner = (&network.intersections[place.id.index()], place.leg);
+    near_side::keep_off(network, corner, &way, smooth, kerb)
 }
 
 fn connection(
@@ -300,8 +302,9 @@ fn connection(
     arrival: (Point2, Vector2),
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
+    kerb: &mut Kerb,
 ) -> Connection {
-    let path = path(network, place, arrival, (from, to), turn);
+    let path = path(network, place, arrival, (from, to, turn), kerb);
     Connection {
         from,
         to,

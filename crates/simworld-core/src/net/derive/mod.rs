@@ -1,5 +1,6 @@
 //! From streets to lanes: everything a [`RoadNetwork`](super::RoadNetwork) holds follows from centrelines.
 
+mod beside;
 mod connections;
 mod cycles;
 mod hammerhead;

@@ -4,9 +4,13 @@
 //! bends within the junction. There the way first follows its leg further in, and turns later and more tightly.
 
 use super::connections::curve;
+use std::borrow::Cow;
+
+use super::beside::Kerb;
 use super::legs::Leg;
-use crate::geometry::{Point2, direction};
-use crate::net::{Intersection, RoadNetwork, polyline};
+use crate::geometry::{Point2, direction, heading};
+use crate::net::polyline::{self, Measured};
+use crate::net::{Intersection, RoadNetwork};
 
 /// A smooth curve that comes nearer to the kerb than this is no way, m: half a car and a little.
 const LEAST_CLEARANCE: f64 = 0.95;
@@ -29,82 +33,94 @@ pub(super) struct Way<'a> {
 }
 
 /// The kerb on the left of a leg, seen leaving, round the corner to the next one: what who arrives and turns right goes round.
-pub(super) fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
+fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
     let Some(start) = intersection.kerbs.get(leg) else { return &[] };
     let end = intersection.kerbs.get(leg + 1).map_or(intersection.outline.len(), |end| *end as usize);
     intersection.outline.get(*start as usize..end).unwrap_or(&[])
 }
 
-/// The smooth curve, or the widest turn that keeps off the kerb where that one does not; where none does, the one that
-/// keeps farthest.
+/// The smooth curve, or the widest turn that keeps off the kerb of a leg where that one does not; where none does, the one
+/// that keeps farthest.
 pub(super) fn keep_off(
     network: &RoadNetwork,
-    kerb: &[Point2],
+    (intersection, leg): (&Intersection, usize),
     way: &Way<'_>,
     smooth: Vec<Point2>,
+    measured: &mut Kerb,
 ) -> Vec<Point2> {
-    let ends = beside(kerb, &way.start).min(beside(kerb, &way.end));
+    measured.set(kerb(intersection, leg));
+    let ends = measured.beside(&way.start).min(measured.beside(&way.end));
     let wanted = CLEARANCE.min(ends) - MARGIN;
-    let mut best = (clearance(kerb, &smooth), smooth);
+    let mut best = (measured.clearance(&smooth), smooth);
     if best.0 >= wanted.min(LEAST_CLEARANCE) {
         return best.1;
     }
+    let legs = [way.from, way.to].map(|leg| outwards(network, leg));
+    let [from, to] = legs.each_ref().map(|line| Measured::new(line));
     let (mut into, mut out) = (way.from.stop, way.to.stop);
     while best.0 < wanted && into.max(out) > STEP {
         (into, out) = ((into - STEP).max(STEP), (out - STEP).max(STEP));
-        let Some(path) = later(network, way, into, out) else { break };
-        let clear = clearance(kerb, &path);
-        if clear > best.0 {
+        let Some(path) = later(way, (&from, into), (&to, out)) else { break };
+        if let Some(clear) = measured.clearance_above(&path, best.0) {
             best = (clear, path);
         }
     }
     best.1
 }
 
+/// The middle of a leg's street from the node outwards.
+fn outwards<'a>(network: &'a RoadNetwork, leg: &Leg) -> Cow<'a, [Point2]> {
+    let centerline = &network.roads[leg.street].centerline;
+    if leg.at_start { centerline.into() } else { polyline::reversed(centerline).into() }
+}
+
 /// The way that follows its legs to so far from the node, m, and turns there; `None` if that is too tight.
-fn later(network: &RoadNetwork, way: &Way<'_>, into: f64, out: f64) -> Option<Vec<Point2>> {
-    let mut path = polyline::reversed(&along(network, way.from, way.start, into));
-    let exit = along(network, way.to, way.end, out);
-    let (a, b) = (heading_out(&path)?, heading_out(&polyline::reversed(&exit))?);
+fn later(
+    way: &Way<'_>,
+    (from, into): (&Measured<'_>, f64),
+    (to, out): (&Measured<'_>, f64),
+) -> Option<Vec<Point2>> {
+    let mut path = along(from, way.from, way.start, into);
+    path.reverse();
+    let exit = along(to, way.to, way.end, out);
+    let (ahead, back) = (heading_out(path.iter())?, heading_out(exit.iter().rev())?);
     let (start, end) = (*path.last()?, *exit.first()?);
     if (end - start).norm() < LEAST_CHORD {
         return None;
     }
-    let turn = curve(start, direction(a), end, -direction(b));
+    let turn = curve(start, direction(ahead), end, -direction(back));
+    path.reserve_exact(turn.len() + exit.len() - 2);
     path.extend_from_slice(&turn[1..]);
     path.extend_from_slice(&exit[1..]);
     Some(path)
 }
 
-/// The heading with which a path ends, radians.
-fn heading_out(path: &[Point2]) -> Option<f64> {
-    (path.len() >= 2).then(|| polyline::at(path, f64::INFINITY).1)
+/// The heading with which a path ends, radians; `None` if nothing of it has a length.
+fn heading_out<'a>(path: impl DoubleEndedIterator<Item = &'a Point2>) -> Option<f64> {
+    let mut back = path.rev();
+    let mut end = back.next()?;
+    for before in back {
+        let step = end - before;
+        if step.norm() > 0.0 {
+            return Some(heading(&step));
+        }
+        end = before;
+    }
+    None
 }
 
 /// The line of a lane within the junction, from `from` m off the node outwards to the lane's end, a point about every metre.
-fn along(network: &RoadNetwork, leg: &Leg, lane_end: Point2, from: f64) -> Vec<Point2> {
-    let centerline = &network.roads[leg.street].centerline;
-    let outwards = if leg.at_start { centerline.clone() } else { polyline::reversed(centerline) };
-    let middle = polyline::slice(&outwards, from, leg.stop);
+fn along(outwards: &Measured<'_>, leg: &Leg, lane_end: Point2, from: f64) -> Vec<Point2> {
+    let middle = outwards.slice(from, leg.stop);
     let lateral = leg.direction().perp(&(lane_end - leg.node));
     let lateral = polyline::closest(&middle, &lane_end).map_or(lateral, |closest| closest.lateral);
     let mut line = polyline::offset(&middle, lateral);
     if let Some(last) = line.last_mut() {
         *last = lane_end;
     }
-    let length = polyline::length(&line);
-    let pieces = length.ceil().max(1.0);
-    (0..=pieces as usize).map(|index| polyline::at(&line, length * index as f64 / pieces).0).collect()
-}
-
-/// How far the nearest point of a path is from a kerb that lies on its right, m; negative beyond the kerb.
-fn clearance(kerb: &[Point2], path: &[Point2]) -> f64 {
-    path.iter().map(|point| beside(kerb, point)).fold(f64::INFINITY, f64::min)
-}
-
-/// How far a point is from a kerb on the side of the carriageway, m.
-fn beside(kerb: &[Point2], point: &Point2) -> f64 {
-    polyline::closest(kerb, point).map_or(f64::INFINITY, |closest| closest.lateral)
+    let line = Measured::new(&line);
+    let pieces = line.length().ceil().max(1.0);
+    (0..=pieces as usize).map(|index| line.point_at(line.length() * index as f64 / pieces)).collect()
 }
 
 #[cfg(test)]
