@@ -29,8 +29,8 @@ pub use hammerhead::{HAMMERHEAD_ARM, HAMMERHEAD_WIDTH};
 pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
 pub use near::Joined;
 pub use network::{
-    Connection, Control, Crossing, Footpath, Hammerhead, Intersection, Lane, Road, RoadClass, RoadNetwork,
-    Side, Sidewalk, Strip, Turn, TurningCircle,
+    Connection, Control, Crossing, Few, Footpath, Hammerhead, Intersection, Lane, Road, RoadClass,
+    RoadNetwork, Side, Sidewalk, Strip, Turn, TurningCircle,
 };
 pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};

@@ -2,10 +2,15 @@
 //! maps read.
 
 use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
 
 use super::{DrivingSide, LaneDirection, LaneKind, SignalGroup, SignalPlan, polyline};
 use crate::geometry::{self, Point2};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
+
+/// A list of numbers of which there are few in most places: up to four stand in place, with no memory of their own to go and
+/// look for; more of them are a vector. It is as large as a vector, and read, collected and saved like one.
+pub type Few<T> = SmallVec<[T; 4]>;
 
 /// The rank of a road.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -40,11 +45,11 @@ pub struct Road {
     /// How far it reaches to the right, m.
     pub right_kerb: f64,
     /// Lanes driven along the centreline, from the middle outwards.
-    pub forward: Vec<LaneId>,
+    pub forward: Few<LaneId>,
     /// Lanes driven against the centreline, from the middle outwards.
-    pub backward: Vec<LaneId>,
+    pub backward: Few<LaneId>,
     /// Lanes for bicycles alone, from left to right; see [`Lane::from`] for the way each goes.
-    pub cycle: Vec<LaneId>,
+    pub cycle: Few<LaneId>,
     /// What lies beside its lanes up to its sidewalks: parking, medians, cycle lanes, shoulders, verges; from left to
     /// right.
     pub strips: Vec<Strip>,
@@ -127,7 +132,7 @@ pub struct Lane {
     /// The intersection it leads to.
     pub to: IntersectionId,
     /// The ways on from its end; empty only where the network ends.
-    pub outgoing: Vec<ConnectionId>,
+    pub outgoing: Few<ConnectionId>,
 }
 
 impl Lane {
@@ -169,11 +174,11 @@ pub struct Connection {
     /// The signal that governs it, if any.
     pub signal: Option<SignalGroup>,
     /// Connections whose vehicles could touch one on this path, ascending; never itself.
-    pub conflicts: Vec<ConnectionId>,
+    pub conflicts: Few<ConnectionId>,
     /// Those of the conflicts to which this one gives way while both may go, ascending.
-    pub yields_to: Vec<ConnectionId>,
+    pub yields_to: Few<ConnectionId>,
     /// Crossings that the path passes over, ascending.
-    pub crossings: Vec<CrossingId>,
+    pub crossings: Few<CrossingId>,
 }
 
 /// Who may go at an intersection.
@@ -219,11 +224,11 @@ pub struct Intersection {
     /// The paved area, counter-clockwise, m.
     pub outline: Vec<Point2>,
     /// Where in the outline the kerb on the left of each road begins, seen from here; see [`Intersection::kerb`].
-    pub kerbs: Vec<u32>,
+    pub kerbs: Few<u32>,
     /// The room to turn round, at a dead end that has it.
     pub turning: Option<TurningCircle>,
     /// The roads that meet here, counter-clockwise from east by the direction in which they leave.
-    pub roads: Vec<RoadId>,
+    pub roads: Few<RoadId>,
     /// Who may go.
     pub control: Control,
     /// Index of its plan in [`RoadNetwork::signals`], if it has signals.
@@ -231,7 +236,7 @@ pub struct Intersection {
     /// The paths across.
     pub connections: Vec<ConnectionId>,
     /// The crossings on its legs.
-    pub crossings: Vec<CrossingId>,
+    pub crossings: Few<CrossingId>,
     /// The walkways round its corners: the i-th leads from the left sidewalk of `roads[i]`, seen from here, to the
     /// right sidewalk of the next road, ends included; without points where one of the two is missing.
     pub corners: Vec<Vec<Point2>>,

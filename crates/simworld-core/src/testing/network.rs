@@ -1,7 +1,7 @@
 //! Networks that differ in nothing but the numbers of their parts.
 
 use crate::id::{ConnectionId, CrossingId, LaneId, RoadId, SidewalkId};
-use crate::net::{Lane, RoadNetwork, SignalGroup, polyline};
+use crate::net::{Few, Lane, RoadNetwork, SignalGroup, polyline};
 
 /// The network with its lanes, sidewalks, connections, crossings, signals and signal groups numbered road by road and
 /// junction by junction: two networks that differ only in those numbers come out the same. Roads and intersections keep
@@ -55,7 +55,7 @@ fn order_lanes(network: &RoadNetwork, ordered: &mut RoadNetwork) -> Vec<LaneId> 
         across.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (_, lane) in across {
             names[lane.index()] = LaneId::from_index(ordered.lanes.len());
-            ordered.lanes.push(Lane { outgoing: Vec::new(), ..network.lanes[lane.index()].clone() });
+            ordered.lanes.push(Lane { outgoing: Few::new(), ..network.lanes[lane.index()].clone() });
         }
         road.forward
             .iter_mut()
@@ -122,7 +122,7 @@ fn order_connections(network: &RoadNetwork, ordered: &mut RoadNetwork, index: us
     let first = ordered.connections.len();
     let renumbered = |list: &[ConnectionId]| {
         let next = |old: &ConnectionId| own.iter().position(|other| other == old);
-        let mut list: Vec<ConnectionId> =
+        let mut list: Few<ConnectionId> =
             list.iter().filter_map(next).map(|rank| ConnectionId::from_index(first + rank)).collect();
         list.sort_unstable();
         list

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::geometry::{Point2, direction};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
+use crate::net::Few;
 
 /// A road that is to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,13 +102,13 @@ impl NetworkBuilder {
             center,
             height,
             outline,
-            kerbs: Vec::new(),
+            kerbs: Few::new(),
             turning: None,
-            roads: Vec::new(),
+            roads: Few::new(),
             control: Control::None,
             signals: None,
             connections: Vec::new(),
-            crossings: Vec::new(),
+            crossings: Few::new(),
             corners: Vec::new(),
             hammerhead: None,
         });
@@ -129,9 +130,9 @@ impl NetworkBuilder {
             width: 0.0,
             left_kerb: 0.0,
             right_kerb: 0.0,
-            forward: Vec::new(),
-            backward: Vec::new(),
-            cycle: Vec::new(),
+            forward: Few::new(),
+            backward: Few::new(),
+            cycle: Few::new(),
             strips: Vec::new(),
             sidewalks: [None; 2],
             roundabout: road.roundabout,
@@ -165,7 +166,7 @@ impl NetworkBuilder {
             speed_limit: lane.speed_limit,
             from,
             to,
-            outgoing: Vec::new(),
+            outgoing: Few::new(),
         });
         id
     }
@@ -219,9 +220,9 @@ impl NetworkBuilder {
             length: polyline::length(&path),
             path,
             signal: None,
-            conflicts: Vec::new(),
-            yields_to: Vec::new(),
-            crossings: Vec::new(),
+            conflicts: Few::new(),
+            yields_to: Few::new(),
+            crossings: Few::new(),
         });
         ConnectionId::from_index(self.network.connections.len() - 1)
     }

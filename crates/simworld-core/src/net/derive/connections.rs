@@ -10,8 +10,8 @@ use super::{cycles, hammerhead, kerbs, near_side};
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
-    Connection, Control, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, StreetPlan, Turn, TurnSet,
-    polyline,
+    Connection, Control, Few, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, StreetPlan, Turn,
+    TurnSet, polyline,
 };
 use crate::ops::wrap_angle;
 
@@ -313,9 +313,9 @@ fn connection(
         length: polyline::length(&path),
         path,
         signal,
-        conflicts: Vec::new(),
-        yields_to: Vec::new(),
-        crossings: Vec::new(),
+        conflicts: Few::new(),
+        yields_to: Few::new(),
+        crossings: Few::new(),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::hammerhead;
 use super::legs::{Leg, corner};
 use crate::geometry::{Point2, Vector2};
-use crate::net::TurningCircle;
+use crate::net::{Few, TurningCircle};
 use crate::ops;
 
 /// Radius of the kerb where a turning circle opens out of its street, m.
@@ -22,12 +22,12 @@ pub(super) const WALK_STEP: f64 = 0.8;
 
 /// The paved area of a junction, counter-clockwise, and the point at which the kerb on the left of each leg begins. The
 /// i-th kerb leads from the left of leg i round the corner to the right of the next one.
-pub(super) fn outline(center: Point2, legs: &[Leg]) -> (Vec<Point2>, Vec<u32>) {
+pub(super) fn outline(center: Point2, legs: &[Leg]) -> (Vec<Point2>, Few<u32>) {
     if legs.is_empty() {
-        return (vec![center], Vec::new());
+        return (vec![center], Few::new());
     }
     let mut outline = Vec::with_capacity(legs.len() * 8);
-    let mut starts = Vec::with_capacity(legs.len());
+    let mut starts = Few::with_capacity(legs.len());
     for (index, leg) in legs.iter().enumerate() {
         let next = &legs[(index + 1) % legs.len()];
         starts.push(outline.len() as u32);

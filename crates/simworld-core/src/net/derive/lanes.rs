@@ -5,7 +5,7 @@ use super::legs::Leg;
 use crate::geometry::Point2;
 use crate::id::{LaneId, RoadId};
 use crate::net::{
-    CrossSection, Lane, LaneDirection, LaneKind, LaneSpec, RoadNetwork, StreetPlan, Strip, polyline,
+    CrossSection, Few, Lane, LaneDirection, LaneKind, LaneSpec, RoadNetwork, StreetPlan, Strip, polyline,
 };
 
 /// The most that is ridden on a cycle lane, m/s: 25 km/h, up to which a motor may help (EN 15194).
@@ -104,6 +104,6 @@ fn lay(
         speed_limit,
         from,
         to,
-        outgoing: Vec::new(),
+        outgoing: Few::new(),
     });
 }

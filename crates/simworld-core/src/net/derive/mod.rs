@@ -14,6 +14,7 @@ mod trace;
 mod walkways;
 mod workers;
 
+use crate::net::Few;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -22,10 +23,8 @@ use crate::geometry::Point2;
 use crate::id::{IntersectionId, RoadId};
 pub(super) use connections::{curve, settle};
 use legs::Leg;
+use workers::PART;
 pub use workers::{Alone, Workers};
-
-/// So many intersections are a part of the work.
-const PART: usize = 256;
 
 /// Limits and timings by which a network is derived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -196,15 +195,17 @@ impl RoadNetwork {
             network.roads.push(road(plan, street));
         }
         network.names.clone_from(&plan.names);
-        for (node, legs) in legs.iter().enumerate() {
+        let place = |node: usize| {
+            let legs = &legs[node];
             let control = plan.controls.get(&node).copied();
             let in_ring = legs.iter().any(|leg| plan.streets[leg.street].roundabout);
             let control = control.or(in_ring.then_some(Control::Priority));
-            let height = plan.elevation(node);
-            network.intersections.push(intersection((plan.nodes[node], height), legs, control, config));
-        }
+            intersection((plan.nodes[node], plan.elevation(node)), legs, control, config)
+        };
+        network.intersections.reserve_exact(legs.len());
+        network.intersections.extend(workers::each(workers, legs.len(), place));
         lanes::add(&mut network, plan, &legs, config);
-        walkways::add(&mut network, plan, &legs, config);
+        walkways::add(&mut network, plan, &legs, config, workers);
         for (node, legs) in legs.iter().enumerate() {
             signals::add(&mut network, IntersectionId::from_index(node), legs, config);
         }
@@ -232,9 +233,9 @@ pub(super) fn road(plan: &StreetPlan, street: &Street) -> Road {
         width: left + right,
         left_kerb: left,
         right_kerb: right,
-        forward: Vec::new(),
-        backward: Vec::new(),
-        cycle: Vec::new(),
+        forward: Few::new(),
+        backward: Few::new(),
+        cycle: Few::new(),
         strips: Vec::new(),
         sidewalks: [None; 2],
         roundabout: street.roundabout,
@@ -266,7 +267,7 @@ fn intersection(
         control,
         signals: None,
         connections: Vec::new(),
-        crossings: Vec::new(),
+        crossings: Few::new(),
         corners: Vec::new(),
         hammerhead: hammerhead::head(legs),
     }

@@ -4,13 +4,20 @@ use super::NetworkConfig;
 use super::hammerhead;
 use super::kerbs;
 use super::legs::{self, Leg};
+use super::workers::{self, Workers};
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId, RoadId, SidewalkId};
 use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan, polyline};
 
 /// Adds the sidewalks that the cross-sections have, the corners between them, and the crossings that join them.
-pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], config: &NetworkConfig) {
-    add_sidewalks(network, plan, legs);
+pub(super) fn add(
+    network: &mut RoadNetwork,
+    plan: &StreetPlan,
+    legs: &[Vec<Leg>],
+    config: &NetworkConfig,
+    workers: &dyn Workers,
+) {
+    add_sidewalks(network, plan, legs, workers);
     for (node, legs) in legs.iter().enumerate() {
         let id = IntersectionId::from_index(node);
         for leg in legs.iter().filter(|_| legs.len() >= 3) {
@@ -19,7 +26,10 @@ pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>
                 add_crossing(network, id, leg, config);
             }
         }
-        network.intersections[node].corners = corners(network, legs);
+    }
+    let corners: Vec<_> = workers::each(workers, legs.len(), |node| corners(network, &legs[node])).collect();
+    for (place, corners) in network.intersections.iter_mut().zip(corners) {
+        place.corners = corners;
     }
 }
 
@@ -27,33 +37,43 @@ fn joins_two_sidewalks(network: &RoadNetwork, leg: &Leg) -> bool {
     network.roads[leg.street].sidewalks.iter().all(Option::is_some)
 }
 
-fn add_sidewalks(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>]) {
+fn add_sidewalks(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], workers: &dyn Workers) {
     let mut ends = vec![(0.0, 0.0); network.roads.len()];
     for leg in legs.iter().flatten() {
         let (start, end) = &mut ends[leg.street];
         *if leg.at_start { start } else { end } = leg.walk;
     }
-    for (index, (street, (start, end))) in plan.streets.iter().zip(ends).enumerate() {
-        let section = plan.section(street);
-        let centerline = &network.roads[index].centerline;
-        let middle = polyline::slice(centerline, start, polyline::length(centerline) - end);
-        let strips = || section.strips().filter(|(_, spec)| spec.kind == LaneKind::Sidewalk);
-        let kerb = section.kerbs().0;
-        // The outermost on either side; one that lies between the kerbs is no sidewalk of either.
-        let left = strips().next().filter(|(offset, _)| *offset > kerb);
-        let right = strips().last().filter(|(offset, _)| *offset < -section.kerbs().1);
-        for (side, strip) in [(Side::Left, left), (Side::Right, right)] {
-            let Some((offset, spec)) = strip else { continue };
-            let id = SidewalkId::from_index(network.sidewalks.len());
-            network.roads[index].sidewalks[usize::from(side == Side::Right)] = Some(id);
-            network.sidewalks.push(Sidewalk {
-                road: RoadId::from_index(index),
-                side,
-                path: polyline::offset(&middle, offset),
-                width: spec.width,
-            });
-        }
+    let roads = &network.roads;
+    let beside = |index: usize| sidewalks(plan, index, &roads[index].centerline, ends[index]);
+    let all: Vec<_> = workers::each(workers, plan.streets.len(), beside).collect();
+    network.sidewalks.reserve_exact(all.iter().flatten().flatten().count());
+    for sidewalk in all.into_iter().flatten().flatten() {
+        let id = SidewalkId::from_index(network.sidewalks.len());
+        let road = &mut network.roads[sidewalk.road.index()];
+        road.sidewalks[usize::from(sidewalk.side == Side::Right)] = Some(id);
+        network.sidewalks.push(sidewalk);
     }
+}
+
+/// The sidewalks of a street on its left and on its right, which end so far before its ends, m.
+fn sidewalks(
+    plan: &StreetPlan,
+    street: usize,
+    centerline: &[Point2],
+    (start, end): (f64, f64),
+) -> [Option<Sidewalk>; 2] {
+    let section = plan.section(&plan.streets[street]);
+    let middle = polyline::slice(centerline, start, polyline::length(centerline) - end);
+    let strips = || section.strips().filter(|(_, spec)| spec.kind == LaneKind::Sidewalk);
+    let kerb = section.kerbs().0;
+    // The outermost on either side; one that lies between the kerbs is no sidewalk of either.
+    let left = strips().next().filter(|(offset, _)| *offset > kerb);
+    let right = strips().last().filter(|(offset, _)| *offset < -section.kerbs().1);
+    [(Side::Left, left), (Side::Right, right)].map(|(side, strip)| {
+        let (offset, spec) = strip?;
+        let path = polyline::offset(&middle, offset);
+        Some(Sidewalk { road: RoadId::from_index(street), side, path, width: spec.width })
+    })
 }
 
 fn add_crossing(network: &mut RoadNetwork, intersection: IntersectionId, leg: &Leg, config: &NetworkConfig) {

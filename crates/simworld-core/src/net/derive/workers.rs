@@ -2,6 +2,9 @@
 
 use std::sync::OnceLock;
 
+/// So many streets or intersections are a part of the work.
+pub(super) const PART: usize = 256;
+
 /// Who works on the parts of something.
 ///
 /// ```
@@ -56,6 +59,18 @@ pub(super) fn collect<T: Send + Sync>(
         .collect()
 }
 
+/// What is made of each number below `count`, in their order, whoever works in whatever order.
+pub(super) fn each<T: Send + Sync>(
+    workers: &dyn Workers,
+    count: usize,
+    make: impl Fn(usize) -> T + Sync,
+) -> impl Iterator<Item = T> {
+    let parts = collect(workers, count.div_ceil(PART), |part| -> Vec<T> {
+        (part * PART..count.min((part + 1) * PART)).map(&make).collect()
+    });
+    parts.into_iter().flatten()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,5 +91,12 @@ mod tests {
         let expected: Vec<usize> = (0..20).map(|part| part * part).collect();
         assert_eq!(made(&Alone), expected);
         assert_eq!(made(&Careless), expected);
+    }
+
+    #[test]
+    fn each_number_is_worked_on_in_its_place() {
+        for count in [0, 1, PART, 5 * PART + 3] {
+            assert!(each(&Careless, count, |number| 2 * number).eq((0..count).map(|number| 2 * number)));
+        }
     }
 }

@@ -13,6 +13,7 @@ use self::find::Compound;
 use self::ways::Composed;
 use super::{Connection, Control, RoadNetwork, derive};
 use crate::id::{ConnectionId, IntersectionId, LaneId};
+use crate::net::Few;
 
 /// A network in which near junctions are one.
 ///
@@ -94,7 +95,7 @@ fn drop_ways(network: &mut RoadNetwork, joined: &[(Compound, Vec<Composed>)]) {
         stays(way).then_some(number)
     };
     let numbers: Vec<Option<ConnectionId>> = network.connections.iter().map(number).collect();
-    let rename = |list: &mut Vec<ConnectionId>| {
+    let rename = |list: &mut Few<ConnectionId>| {
         *list = list.iter().filter_map(|way| numbers[way.index()]).collect();
     };
     network.connections.retain(stays);
@@ -103,7 +104,9 @@ fn drop_ways(network: &mut RoadNetwork, joined: &[(Compound, Vec<Composed>)]) {
         rename(&mut way.yields_to);
     }
     network.lanes.iter_mut().for_each(|lane| rename(&mut lane.outgoing));
-    network.intersections.iter_mut().for_each(|place| rename(&mut place.connections));
+    for place in &mut network.intersections {
+        place.connections = place.connections.iter().filter_map(|way| numbers[way.index()]).collect();
+    }
 }
 
 /// Lets everything that led to one of the nodes lead to the first of them, and empties the roads inside.
@@ -165,9 +168,9 @@ fn connection(main: IntersectionId, way: &Composed) -> Connection {
         path: way.path.clone(),
         length: super::polyline::length(&way.path),
         signal: way.signal,
-        conflicts: Vec::new(),
-        yields_to: Vec::new(),
-        crossings: Vec::new(),
+        conflicts: Few::new(),
+        yields_to: Few::new(),
+        crossings: Few::new(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::work::{Repair, Surroundings};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
-use crate::net::{Crossing, Lane, Sidewalk, SignalGroup, derive};
+use crate::net::{Crossing, Few, Lane, Sidewalk, SignalGroup, derive};
 
 /// The numbers that derived things have in the network.
 struct Numbers<'a> {
@@ -71,7 +71,7 @@ impl Repair<'_> {
         for lane in road.forward.iter_mut().chain(&mut road.backward).chain(&mut road.cycle) {
             let found = network.lanes[lane.index()].clone();
             let (from, to) = (numbers.intersection(found.from), numbers.intersection(found.to));
-            let number = self.books.lanes.fill(Lane { road: id, from, to, outgoing: Vec::new(), ..found });
+            let number = self.books.lanes.fill(Lane { road: id, from, to, outgoing: Few::new(), ..found });
             numbers.lanes[lane.index()] = LaneId::from_index(number);
             *lane = LaneId::from_index(number);
         }
