@@ -1,14 +1,16 @@
 //! How fast cities are made and how much memory they take: every stage beside its bar, linear growth, two threads
-//! against one.
+//! against one. Each group of rows is measured in a process of its own, as a program has it that makes one city: memory that
+//! another one left in pieces is not the subject.
 //!
 //! ```sh
 //! cargo run --release --example city_figures
 //! ```
 
 use std::io::{self, Write};
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
 use simworld_citygen::building;
@@ -36,28 +38,96 @@ struct Arguments {
     /// Style of the streets: grid, mixed, organic or suburb.
     #[arg(long, default_value = "mixed")]
     style: Style,
+    /// One group of rows alone.
+    #[arg(long, value_enum)]
+    only: Option<Group>,
+    /// Rows as fields between tabs, without a table.
+    #[arg(long, hide = true)]
+    fields: bool,
+}
+
+/// Rows that are measured in one process.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Group {
+    /// A city of a million buildings: made, saved, loaded.
+    Whole,
+    /// Streets by growth, three sizes.
+    Growth,
+    /// Every stage on one core, tiles and routes.
+    Stages,
+    /// Two threads against one.
+    Threads,
+}
+
+/// What was measured, each beside its bar.
+#[derive(Default)]
+struct Rows(Vec<[String; 3]>);
+
+impl Rows {
+    fn add_row(&mut self, row: [impl Into<String>; 3]) {
+        self.0.push(row.map(Into::into));
+    }
+
+    fn table(&self) -> Table {
+        let mut table = Table::new();
+        table.load_style(UTF8_FULL_CONDENSED);
+        table.set_header(["what", "measured", "bar"]);
+        rows.add_rows(&self.0);
+        if let Some(column) = table.column_mut(1) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        table
+    }
 }
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
 
 fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let mut table = Table::new();
-    table.load_style(UTF8_FULL_CONDENSED);
-    table.set_header(["what", "measured", "bar"]);
-    // First, while nothing else has taken memory.
-    whole(&arguments, &mut table)?;
-    one.install(|| -> Outcome<()> {
-        growths(&arguments, &mut table)?;
-        stages(&arguments, &mut table)
-    })?;
-    threads(&arguments, &mut table)?;
-    if let Some(column) = table.column_mut(1) {
-        column.set_cell_alignment(CellAlignment::Right);
+    let mut rows = Rows::default();
+    if let Some(group) = arguments.only {
+        measure(group, &arguments, &mut rows)?;
+    } else {
+        for group in Group::value_variants() {
+            in_own_process(*group, &arguments, &mut rows)?;
+        }
     }
-    println!("{table}");
-    println!("Stages on one core; the whole city on all of them.");
+    if arguments.fields {
+        rows.0.iter().for_each(|row| println!("{}", row.join("\t")));
+    } else {
+        println!("{}", rows.table());
+        println!("Stages on one core; the whole city on all of them.");
+    }
+    Ok(())
+}
+
+fn measure(group: Group, arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    match group {
+        Group::Whole => whole(arguments, rows),
+        Group::Growth => one.install(|| growths(arguments, rows)),
+        Group::Stages => one.install(|| stages(arguments, rows)),
+        Group::Threads => threads(arguments, rows),
+    }
+}
+
+/// Has another process of this program measure a group.
+fn in_own_process(group: Group, arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
+    let name = group.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+    eprintln!("measuring: {name}");
+    let output = Command::new(std::env::current_exe()?)
+        .args(["--fields", "--only", &name, "--streets", &arguments.streets.to_string()])
+        .args(["--style", &arguments.style.to_string()])
+        .stderr(Stdio::inherit())
+        .output()?;
+    if !output.status.success() {
+        return Err(format!("the rows of {name} were not measured: {}", output.status).into());
+    }
+    for line in String::from_utf8(output.stdout)?.lines() {
+        let fields: Vec<&str> = line.split('\t').collect();
+        let row = <[&str; 3]>::try_from(fields).map_err(|_| format!("no row of {name}: {line}"))?;
+        rows.add_row(row);
+    }
     Ok(())
 }
 
@@ -89,41 +159,37 @@ fn config(arguments: &Arguments, streets: u32) -> CityConfig {
     CityConfig { roads: arguments.style.roads(streets.max(10)), ..CityConfig::default() }
 }
 
-fn growths(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
+fn growths(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     for share in [100, 10, 1] {
         let roads = config(arguments, arguments.streets / share).roads;
         roads.validate()?;
         let (plan, time) = best(if share == 1 { 1 } else { 3 }, || growth::grow(&roads, Seed(1)));
         let count = plan.streets.len();
-        table.add_row([
-            format!("growth of {count} segments"),
-            rate(count, time),
-            "1 M/s at 100 k".to_owned(),
-        ]);
+        rows.add_row([format!("growth of {count} segments"), rate(count, time), "1 M/s at 100 k".to_owned()]);
     }
     Ok(())
 }
 
-fn stages(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
+fn stages(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let (config, seed) = (config(arguments, arguments.streets / 10), Seed(1));
     let plan = growth::grow(&config.roads, seed);
     let (network, time) = best(3, || RoadNetwork::derive(&plan, &NetworkConfig::default()));
     let network = network?;
     let roads = network.roads.len();
-    table.add_row(["lanes, junctions, turns, crosswalks, roads", &rate(roads, time), "100 k/s"]);
+    rows.add_row(["lanes, junctions, turns, crosswalks, roads", &rate(roads, time), "100 k/s"]);
     let zoning = Zoning::new(&config.zoning, seed);
     let (taken, land_time) = best(3, || Occupancy::of_roads(&network));
     let (land, time) = best(3, || Land::of_network(&network, &zoning, &config.lots, seed, &taken));
-    table.add_row(["lots".to_owned(), rate(land.lots.len(), time + land_time), "-".to_owned()]);
+    rows.add_row(["lots".to_owned(), rate(land.lots.len(), time + land_time), "-".to_owned()]);
     let mut full = taken.clone();
     let (built, time) = best(3, || {
         full = taken.clone();
         building::build(&network, &land, &config.buildings, seed, &mut full)
     });
-    table.add_row(["buildings placed, no overlap", &rate(built.len(), time), "1 M/s"]);
-    furnished(&config, (&plan, &network, &zoning, &land), &built, &full, table);
-    tiles(table)?;
-    routes(arguments, table)
+    rows.add_row(["buildings placed, no overlap", &rate(built.len(), time), "1 M/s"]);
+    furnished(&config, (&plan, &network, &zoning, &land), &built, &full, rows);
+    tiles(rows)?;
+    routes(arguments, rows)
 }
 
 fn furnished(
@@ -131,22 +197,22 @@ fn furnished(
     (plan, network, zoning, land): (&StreetPlan, &RoadNetwork, &Zoning, &Land),
     buildings: &[building::Building],
     full: &Occupancy,
-    table: &mut Table,
+    rows: &mut Rows,
 ) {
     let setting = Setting { plan, network, zoning, land, buildings, within: None };
     let (elements, time) =
         best(3, || element::furnish(&setting, &config.elements, Seed(1), &mut full.clone()));
-    table.add_row(["street elements", &rate(elements.len(), time), "3 M/s"]);
+    rows.add_row(["street elements", &rate(elements.len(), time), "3 M/s"]);
 }
 
 /// Routes over a town of about 100 000 waypoints.
-fn routes(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
+fn routes(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let plan = growth::grow(&arguments.style.roads(3800), Seed(1));
     let network = RoadNetwork::derive(&plan, &NetworkConfig::default())?;
     let graph = WaypointGraph::walkable(&network, &WaypointConfig::default())?;
     let count = graph.waypoints().len();
     let (hierarchy, time) = timed(|| RouteHierarchy::new(graph));
-    table.add_row([format!("{count} waypoints prepared"), format!("{time:.1} s"), "-".to_owned()]);
+    rows.add_row([format!("{count} waypoints prepared"), format!("{time:.1} s"), "-".to_owned()]);
     let (mut scratch, mut route) = (HierarchyScratch::default(), Route::default());
     let mut rng = Seed(3).stream("figures/routes").rng();
     let mut times: Vec<f64> = (0..5000)
@@ -158,19 +224,19 @@ fn routes(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
         .collect();
     times.sort_by(f64::total_cmp);
     let median = format!("{:.1} µs", times[times.len() / 2] * 1e6);
-    table.add_row(["a shortest route over them, median".to_owned(), median, "20 µs".to_owned()]);
+    rows.add_row(["a shortest route over them, median".to_owned(), median, "20 µs".to_owned()]);
     Ok(())
 }
 
 /// A complete tile of a city without end.
-fn tiles(table: &mut Table) -> Outcome<()> {
+fn tiles(rows: &mut Rows) -> Outcome<()> {
     let source = TileSource::new(TileConfig::default(), Seed(4))?;
     let side = source.config().lattice.tile_side() / 1000.0;
     let ids: Vec<TileId> = (0..20).map(|index| TileId::new(index * 7, index * 3)).collect();
     let (made, time) = best(2, || source.tiles(&ids));
     made?;
     let each = format!("{:.1} ms", time / ids.len() as f64 * 1e3);
-    table.add_row([format!("a tile of {:.2} km², complete", side * side), each, "5 ms".to_owned()]);
+    rows.add_row([format!("a tile of {:.2} km², complete", side * side), each, "5 ms".to_owned()]);
     Ok(())
 }
 
@@ -222,7 +288,7 @@ fn staged(config: &CityConfig, seed: Seed) -> Outcome<[(&'static str, f64); 5]> 
 }
 
 /// A whole city on two threads against one, and each of its stages. Its streets are grown, which is serial by nature.
-fn threads(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
+fn threads(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let config = config(arguments, arguments.streets / 20);
     let (mut prints, mut times, mut stages, mut buildings) = (Vec::new(), Vec::new(), Vec::new(), 0);
     for count in [1, 2] {
@@ -236,14 +302,14 @@ fn threads(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
         stages.push(pool.install(|| staged(&config, Seed(2)))?);
     }
     let same = if prints[0] == prints[1] { "the same bits" } else { "OTHER BITS" };
-    table.add_row([
+    rows.add_row([
         format!("grown city of {buildings} buildings on two threads, {same}"),
         format!("{:.2} times as fast", times[0] / times[1]),
         "1.7".to_owned(),
     ]);
     for ((stage, one), (_, two)) in stages[0].iter().zip(&stages[1]) {
         let measured = format!("{:.0} ms, {:.2} times as fast", one * 1e3, one / two);
-        table.add_row([format!("  of it {stage}"), measured, "-".to_owned()]);
+        rows.add_row([format!("  of it {stage}"), measured, "-".to_owned()]);
     }
     Ok(())
 }
@@ -256,31 +322,31 @@ fn peak_memory() -> Option<String> {
     Some(format!("{:.2} GB", kilobytes * 1024.0 / 1e9))
 }
 
-fn add_peak(table: &mut Table) {
+fn add_peak(rows: &mut Rows) {
     let measured = peak_memory().unwrap_or_else(|| "unknown".to_owned());
-    table.add_row(["  most memory so far".to_owned(), measured, "2 GB".to_owned()]);
+    rows.add_row(["  most memory so far".to_owned(), measured, "2 GB".to_owned()]);
 }
 
 /// A city of about a million buildings: made, saved, loaded; one at a time.
-fn whole(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
+fn whole(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let config = config(arguments, arguments.streets / 7);
     let (city, time) = timed(|| City::generate(&config, Seed(3)));
     let city = city?;
     let buildings = city.buildings.len();
-    table.add_row([format!("city of {buildings} buildings"), format!("{time:.1} s"), "10 s".to_owned()]);
-    add_peak(table);
+    rows.add_row([format!("city of {buildings} buildings"), format!("{time:.1} s"), "10 s".to_owned()]);
+    add_peak(rows);
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("whole.simcity");
     let (saved, time) = timed(|| city.save(&path));
     saved?;
     let megabytes = std::fs::metadata(&path)?.len() / 1_000_000;
-    table.add_row([format!("saved, {megabytes} MB"), format!("{time:.1} s"), "4 s".to_owned()]);
-    add_peak(table);
+    rows.add_row([format!("saved, {megabytes} MB"), format!("{time:.1} s"), "4 s".to_owned()]);
+    add_peak(rows);
     let expected = fingerprint(&city)?;
     drop(city);
     let (loaded, time) = timed(|| City::load(&path));
     let same = if fingerprint(&loaded?)? == expected { "the same city" } else { "ANOTHER CITY" };
-    table.add_row([format!("loaded, {same}"), format!("{time:.1} s"), "2 s".to_owned()]);
-    add_peak(table);
+    rows.add_row([format!("loaded, {same}"), format!("{time:.1} s"), "2 s".to_owned()]);
+    add_peak(rows);
     Ok(())
 }
