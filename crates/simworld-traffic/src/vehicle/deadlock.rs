@@ -241,14 +241,24 @@ impl VehicleManager {
 
     /// Whether the room on a lane is kept for another, who has stood longer for it.
     fn is_kept(&self, tracks: &Tracks, first: &Vehicle, after: Track) -> bool {
-        let place = tracks.network.connections[first.next as usize].intersection;
+        self.is_waited_for(tracks, after, |other| other.id != first.id && other.stood > first.stood)
+    }
+
+    /// Whether somebody of whom that is true has stood too long for room on a lane, which is kept for him.
+    pub(super) fn is_waited_for(
+        &self,
+        tracks: &Tracks,
+        after: Track,
+        is_one: impl Fn(&Vehicle) -> bool,
+    ) -> bool {
+        let place = tracks.network.lanes[after as usize].from;
         let mut ways = tracks.network.intersections[place.index()].connections.iter();
         ways.any(|way| {
             let Way { from, to, .. } = tracks.ways[way.index()];
             to == after
                 && self.queue(tracks, from).first().is_some_and(|other| {
                     let waits = other.next == way.0 && !has_leave(other);
-                    waits && other.id != first.id && other.stood > first.stood.max(PATIENT)
+                    waits && other.stood > PATIENT && is_one(other)
                 })
         })
     }
