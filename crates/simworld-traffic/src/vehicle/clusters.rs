@@ -93,6 +93,10 @@ pub(crate) struct Permit {
 }
 
 impl Permit {
+    pub(super) fn new(id: u32, cluster: u32) -> Self {
+        Self { id, cluster, is_used: false, unused: 0.0 }
+    }
+
     /// Whose it is.
     pub(super) fn id(&self) -> u32 {
         self.id
@@ -148,7 +152,7 @@ impl VehicleManager {
             let in_the_way =
                 kept_by.find(|wish| held().any(|permit| self.is_kept_by(tracks, config, permit, wish)));
             if let Some(Wish { cluster, id, .. }) = in_the_way.or_else(|| let_in.next()).copied() {
-                permits.push(Permit { id, cluster, is_used: false, unused: 0.0 });
+                permits.push(Permit::new(id, cluster));
             }
         }
         self.permits = permits;

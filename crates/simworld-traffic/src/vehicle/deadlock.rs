@@ -166,33 +166,57 @@ impl VehicleManager {
 
     /// The lane on which somebody stands whose rear is on a way that meets one's own, or to which somebody stands on such a way.
     fn rear_in_the_way(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
+        // The stretch of such a way that is to be free: of one on which nobody may be beside somebody long, all of it.
         let way = first.next as usize;
-        let conflicts = tracks.conflicts[way].iter().map(|conflict| conflict.way);
-        let mut meeting = conflicts.chain(tracks.tight[way].iter().copied());
-        let stands_on = |way: u32| {
+        let conflicts = tracks.conflicts[way].iter().map(|conflict| (conflict.way, conflict.other.passed()));
+        let tight = tracks.tight[way].iter().map(|way| (*way, f64::INFINITY));
+        let stands_on = |(way, until): (u32, f64)| {
+            if let Some(lane) = self.who_trails_on(tracks, way, until) {
+                return Some(lane);
+            }
             let lane = tracks.lane_after(way as usize);
             let last = self.queue(tracks, lane).last();
-            if last.is_some_and(|last| last.v < STANDING && last.holding == way && !has_leave(last)) {
+            let is_in_the_way = |last: &Vehicle| {
+                let rear = tracks.length[tracks.lanes + way as usize] + last.s - last.length();
+                last.v < STANDING && last.holding == way && !has_leave(last) && rear < until
+            };
+            if last.is_some_and(is_in_the_way) {
                 return Some(lane);
             }
             let mut on_way = self.queue(tracks, tracks.lanes as Track + way).iter();
             let stands = on_way.any(|other| other.v < STANDING && other.stood > LOCKED);
             stands.then(|| self.held_up_by(tracks, way, f64::INFINITY, FAR))
         };
-        meeting.find_map(stands_on)
+        conflicts.chain(tight).find_map(stands_on)
     }
 
-    /// The lane on which somebody stands who has the permit that one needs.
+    /// The lane on which somebody stands, or for which, who is longer than the lane behind a way and has his rear on that still, before a station.
+    fn who_trails_on(&self, tracks: &Tracks, way: u32, until: f64) -> Option<Track> {
+        let length = tracks.length[tracks.lanes + way as usize];
+        let trails = self.trails.iter().filter(|trail| trail.is_on(way, until - length));
+        trails
+            .filter_map(|trail| self.find(tracks, trail.id()))
+            .find_map(|found| self.stands_for(tracks, found))
+    }
+
+    /// The lane on which somebody has long stood, or for which, if he is on a way.
+    fn stands_for(&self, tracks: &Tracks, (track, vehicle, _): (Track, &Vehicle, &Path)) -> Option<Track> {
+        let lane = || match tracks.connection(track) {
+            Some(way) => self.held_up_by(tracks, way as u32, f64::INFINITY, FAR),
+            None => track,
+        };
+        (vehicle.v < STANDING && vehicle.stood > LOCKED).then(lane)
+    }
+
+    /// The lane on which somebody stands, or for which, who has the permit that one needs.
     fn holder_of_permit(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
         let cluster = tracks.clusters.of(tracks, tracks.lane_after(first.next as usize), first)?;
         if self.permits.iter().any(|permit| permit.is_for(first.id, cluster)) {
             return None;
         }
         let holders = self.permits.iter().filter(|permit| permit.is_of(cluster));
-        let stands = |(track, vehicle, _): (Track, &Vehicle, &Path)| {
-            (tracks.connection(track).is_none() && vehicle.stood > LOCKED).then_some(track)
-        };
-        holders.filter_map(|permit| self.find(tracks, permit.id())).find_map(stands)
+        let mut holders = holders.filter_map(|permit| self.find(tracks, permit.id()));
+        holders.find_map(|found| self.stands_for(tracks, found))
     }
 
     /// The lane for room on which the first of a lane has long waited.
@@ -217,14 +241,24 @@ impl VehicleManager {
 
     /// Whether the room on a lane is kept for another, who has stood longer for it.
     fn is_kept(&self, tracks: &Tracks, first: &Vehicle, after: Track) -> bool {
-        let place = tracks.network.connections[first.next as usize].intersection;
+        self.is_waited_for(tracks, after, |other| other.id != first.id && other.stood > first.stood)
+    }
+
+    /// Whether somebody of whom that is true has stood too long for room on a lane, which is kept for him.
+    pub(super) fn is_waited_for(
+        &self,
+        tracks: &Tracks,
+        after: Track,
+        is_one: impl Fn(&Vehicle) -> bool,
+    ) -> bool {
+        let place = tracks.network.lanes[after as usize].from;
         let mut ways = tracks.network.intersections[place.index()].connections.iter();
         ways.any(|way| {
             let Way { from, to, .. } = tracks.ways[way.index()];
             to == after
                 && self.queue(tracks, from).first().is_some_and(|other| {
                     let waits = other.next == way.0 && !has_leave(other);
-                    waits && other.id != first.id && other.stood > first.stood.max(PATIENT)
+                    waits && other.stood > PATIENT && is_one(other)
                 })
         })
     }
@@ -338,6 +372,7 @@ fn has_long_waited(first: &Vehicle) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::conflicts::Conflict;
     use super::*;
 
     fn rings(edges: &[(Track, Track)]) -> Vec<Track> {
@@ -409,6 +444,106 @@ mod tests {
         assert_eq!(vehicles.has_half_changed(&tracks, left, &first), None, "nobody is before it");
         put(&mut vehicles, 1, right, 46.0, 2.0);
         assert_eq!(vehicles.has_half_changed(&tracks, left, &first), Some(right));
+    }
+
+    /// Two parallel streets with cross streets between them on which a bus does not fit, and drivers without anybody.
+    fn near_junctions() -> (Tracks, TrafficConfig, VehicleManager) {
+        use simworld_core::geometry::Point2;
+        use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+        let mut plan = StreetPlan::default();
+        for y in [0.0, 16.0] {
+            plan.nodes.extend((0..3).map(|column| Point2::new(130.0 * f64::from(column), y)));
+        }
+        plan.streets.extend([0, 1, 3, 4].map(|node| Street::simple(node, node + 1)));
+        plan.streets.extend((0..3).map(|node| Street::simple(node, node + 3)));
+        plan.nodes.push(Point2::new(130.0, -100.0));
+        plan.streets.push(Street::simple(1, 6));
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let vehicles = VehicleManager::new(&tracks);
+        (tracks, config, vehicles)
+    }
+
+    #[test]
+    fn who_waits_for_the_rear_of_a_bus_behind_a_short_lane_waits_for_the_lane_of_its_front() {
+        use super::super::trailing::Trail;
+
+        let (tracks, config, mut vehicles) = near_junctions();
+        let row = config.types.iter().position(|row| row.length > 11.0).expect("there are buses");
+        let length = config.types[row].length;
+        let is_short = |lane: Track| tracks.length[lane as usize] < 6.0;
+        // Where the rear of a bus on a way is that has just come to the end of the lane behind it.
+        let rear = |way: u32| {
+            let after = tracks.lane_after(way as usize);
+            tracks.length[tracks.lanes + way as usize] + tracks.length[after as usize] - length
+        };
+        let meets = |(way, other): &(usize, &Conflict)| {
+            is_short(tracks.lane_after(other.way as usize))
+                && (1.0..other.other.passed()).contains(&rear(other.way))
+                && tracks.ways[*way].from != tracks.ways[other.way as usize].from
+        };
+        let mut pairs = (0..tracks.ways.len())
+            .flat_map(|way| tracks.conflicts[way].iter().map(move |other| (way, other)));
+        let (own, conflict) = pairs.find(meets).expect("ways into short lanes are met by others");
+        let short = tracks.lane_after(conflict.way as usize);
+        let exits = tracks.exits(short).iter().map(|exit| tracks.lane_after(exit.0 as usize));
+        let beyond = exits.max_by_key(|lane| tracks.length[*lane as usize] as u32).expect("it leads on");
+        let bus = |s: f64| {
+            let bus = Vehicle::new(config.vehicle_type(row as u8), row as u8, 1.0, 0, s);
+            Vehicle { stood: 60.0, ..bus }
+        };
+        vehicles.whereabouts.push(beyond);
+        vehicles.push(&tracks, beyond, bus(3.0), Path::new(beyond, NONE, 0.0, 0.0));
+        let lane = tracks.ways[own].from;
+        let line = tracks.length[lane as usize] - 0.5;
+        let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 1, line);
+        let car = Vehicle { stood: 60.0, next: own as u32, ..car };
+        vehicles.whereabouts.push(lane);
+        vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+        assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &car), None, "nobody is in its way");
+        let mut trails_at = |s: f64| {
+            let bus = Vehicle { holding: conflict.way, ..bus(s) };
+            vehicles.trails = vec![Trail::new(&bus, &Path::new(short, NONE, 0.0, 0.0), short)];
+            vehicles.waits_behind(&tracks, &config, lane, &car)
+        };
+        let end = tracks.length[short as usize];
+        assert_eq!(trails_at(end), Some(beyond));
+        let passed = conflict.other.passed() - tracks.length[tracks.lanes + conflict.way as usize];
+        assert_eq!(trails_at(length + passed + 0.1), None, "its rear is out of the way");
+    }
+
+    #[test]
+    fn who_needs_the_permit_of_one_on_a_way_waits_for_that_for_which_he_stands() {
+        use super::super::clusters::Permit;
+
+        let (tracks, config, mut vehicles) = near_junctions();
+        let car = |id, s| Vehicle { stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+        let cluster = |way: usize| tracks.clusters.of(&tracks, tracks.lane_after(way), &car(0, 0.0));
+        let others = |way: &usize| {
+            let is_other = |other: &usize| {
+                tracks.ways[*other].from != tracks.ways[*way].from
+                    && tracks.ways[*other].to != tracks.ways[*way].to
+            };
+            let mut same = (0..tracks.ways.len()).filter(|other| cluster(*other) == cluster(*way));
+            cluster(*way).is_some().then(|| same.find(is_other)).flatten()
+        };
+        let (own, other) = (0..tracks.ways.len())
+            .find_map(|way| Some((way, others(&way)?)))
+            .expect("clusters have many ways");
+        let (lane, on_way) = (tracks.ways[own].from, (tracks.lanes + other) as Track);
+        let first = Vehicle { next: own as u32, ..car(1, tracks.length[lane as usize] - 0.5) };
+        let holder = Vehicle { next: other as u32, holding: other as u32, ..car(0, 2.0) };
+        for (track, vehicle) in [(on_way, holder), (lane, first)] {
+            vehicles.whereabouts.push(track);
+            vehicles.push(&tracks, track, vehicle, Path::new(track, NONE, 0.0, 0.0));
+        }
+        assert_eq!(vehicles.holder_of_permit(&tracks, &first), None, "nobody has it");
+        vehicles.permits.push(Permit::new(0, cluster(own).expect("it is one")));
+        assert_eq!(vehicles.holder_of_permit(&tracks, &first), Some(tracks.lane_after(other)));
+        vehicles.both_mut(&tracks, on_way).0[0].v = 1.0;
+        assert_eq!(vehicles.holder_of_permit(&tracks, &first), None, "he goes");
     }
 
     #[test]

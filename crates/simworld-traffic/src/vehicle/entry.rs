@@ -86,6 +86,8 @@ impl VehicleManager {
                 let limit = row.free_speed(config, departure.factor, tracks.speed[*lane as usize]);
                 self.passings.leave_room(*lane, length + limit * limit / (2.0 * idm.deceleration))
             })
+            // Who comes from beside the street does not take the room for which others have waited too long on it.
+            .filter(|lane| !self.is_waited_for(tracks, *lane, |_| true))
             .max_by(|a, b| {
                 let suits = |lane: Track| tracks.suits(lane, row.kind);
                 suits(*a).cmp(&suits(*b)).then(room(*a).total_cmp(&room(*b))).then(b.cmp(a))
@@ -258,5 +260,44 @@ pub(super) fn route_way(
             let after = route.0.get(path.leg as usize + 2..).unwrap_or_default();
             tracks.way_on(closures, lane, (*next, after), kind).unwrap_or(NONE)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
+
+    use super::*;
+    use crate::demand::Kerbs;
+
+    /// Whether a car enters at the beginning of an empty street while another has stood for so long at its line for it.
+    fn enters_while_another_waits(stood: f64) -> bool {
+        let network = RoadNetwork::derive(&StreetPlan::crossroads(100.0), &NetworkConfig::default());
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(Arc::new(network.expect("it is a plan")), &config);
+        let mut vehicles = VehicleManager::new(&tracks);
+        let leads_out = |way: &usize| tracks.length[tracks.lane_after(*way) as usize] > 50.0;
+        let way = (0..tracks.ways.len()).find(leads_out).expect("its arms are long");
+        let (before, after) = (tracks.ways[way].from, tracks.lane_after(way));
+        let line = tracks.length[before as usize] - 0.5;
+        let waits = Vehicle::new(config.vehicle_type(0), 0, 1.0, 0, line);
+        let waits = Vehicle { next: way as u32, stood, ..waits };
+        vehicles.whereabouts.push(before);
+        vehicles.storage.add(before, &waits, &config);
+        vehicles.push(&tracks, before, waits, Path::new(before, NONE, 0.0, 0.0));
+        let leg = Leg::of(&tracks.network, simworld_core::id::LaneId(after));
+        let route = vehicles.add_route(Route(vec![leg]));
+        let kerbs = Kerbs::default();
+        let departure =
+            Departure { route, row: 0, factor: 1.0, source: None, scheduled: 0.0, kerbs, number: 0 };
+        vehicles.enter(&tracks, &config, leg, &departure, 0.0)
+    }
+
+    #[test]
+    fn who_enters_leaves_the_room_to_who_has_waited_too_long_for_it() {
+        assert!(enters_while_another_waits(30.0));
+        assert!(!enters_while_another_waits(250.0));
     }
 }

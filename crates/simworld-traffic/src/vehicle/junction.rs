@@ -97,7 +97,7 @@ impl Junctions {
         f64::from(self.inbound.get(lane as usize)) / TICKS
     }
 
-    fn grant(&self, tracks: &Tracks, vehicle: &Vehicle, config: &TrafficConfig) {
+    pub(super) fn grant(&self, tracks: &Tracks, vehicle: &Vehicle, config: &TrafficConfig) {
         let way = vehicle.next as usize;
         self.holders.add(way, 1);
         self.long_holders.add(way, u32::from(vehicle.is_long()));

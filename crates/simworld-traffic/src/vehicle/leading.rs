@@ -83,7 +83,7 @@ impl Tracks {
     }
 
     /// All lanes that lead the same way beside a lane, on its left and on its right.
-    fn all_beside(&self, lane: Track) -> impl Iterator<Item = Track> + '_ {
+    pub(super) fn all_beside(&self, lane: Track) -> impl Iterator<Item = Track> + '_ {
         [0, 1].into_iter().flat_map(move |side| {
             let next =
                 move |from: &Track| Some(self.beside[*from as usize][side]).filter(|lane| *lane != NONE);

@@ -9,19 +9,39 @@ use crate::{Counters, Leg, Route};
 
 /// Who stands in a lane that does not lead on for so long looks for another way, s.
 pub(super) const PATIENCE: f64 = 40.0;
+/// If a lane beside leads to the end of his route, he leaves the map only after so long, s, and looks for another way once in so many.
+const FORBEARANCE: f64 = 10.0 * PATIENCE;
+const AGAIN: f64 = 5.0;
+/// Nobody makes longer steps, s.
+const STEP: f64 = 1.0;
 
 impl VehicleManager {
     /// Those who have stood too long in a lane that does not lead on take a way that does, and their route anew from there.
     pub(super) fn lose_patience(&mut self, tracks: &Tracks, counters: &mut Counters) {
         let mut stuck = std::mem::take(&mut self.stuck);
         for lane in stuck.drain(..) {
+            let Some(stood) = self.queue(tracks, lane).first().map(|first| first.stood) else { continue };
+            if (stood - PATIENCE) % AGAIN > STEP {
+                continue;
+            }
             let mut ways = tracks.network.lanes[lane as usize].outgoing.iter();
             let Some(goal) = self.goal(tracks, lane, 0) else { continue };
             let is_led = ways.clone().any(|way| self.take_way(tracks, lane, 0, way.0))
-                || ways.any(|way| self.leave_by(tracks, lane, way.0, goal));
+                || ((stood > FORBEARANCE || !self.is_led_beside(tracks, lane, goal))
+                    && ways.any(|way| self.leave_by(tracks, lane, way.0, goal)));
             counters.rerouted += u64::from(is_led);
         }
         self.stuck = stuck;
+    }
+
+    /// Whether a lane beside leads to a goal: who waits for a gap there may stand beside one who wants to come over as well, who will take
+    /// another way and let him in.
+    fn is_led_beside(&self, tracks: &Tracks, lane: Track, goal: Leg) -> bool {
+        let mut ways = tracks.all_beside(lane).flat_map(|beside| tracks.exits(beside));
+        ways.any(|(way, leg)| {
+            !self.closures.bars(tracks, *way as usize)
+                && self.closures.quickest_but(tracks, *leg, goal, None).is_some()
+        })
     }
 
     /// The last leg of the route of a vehicle of a lane; none if it turns at random.
@@ -163,6 +183,55 @@ mod tests {
         assert_eq!((end, counters.arrived, counters.removed), (Some(TripEnd::NoWay), 0, 1));
         let (end, counters) = end_of(false);
         assert_eq!((end, counters.arrived, counters.removed), (Some(TripEnd::Arrived), 1, 0));
+    }
+
+    /// A street of two lanes at whose end the left one leads to the left alone and the right one to the right; both ways lead to one street in
+    /// the end. Streets by number: the first, to the left and on, to the right and on, and the last.
+    fn fork() -> (Tracks, TrafficConfig) {
+        let nodes = [[0.0, 0.0], [120.0, 0.0], [120.0, 100.0], [120.0, -100.0], [240.0, 0.0], [340.0, 0.0]];
+        let mut plan = StreetPlan::default();
+        plan.nodes.extend(nodes.map(|[x, y]| Point2::new(x, y)));
+        let [one, two] = [1, 2].map(|lanes| plan.add_section(CrossSection::two_way(lanes, 0)));
+        for (from, to, section) in
+            [(0, 1, two), (1, 2, one), (2, 4, one), (1, 3, one), (3, 4, one), (4, 5, one)]
+        {
+            plan.streets.push(Street { section, ..Street::simple(from, to) });
+        }
+        let without_lights = NetworkConfig { signals_from_roads: 0, ..NetworkConfig::default() };
+        let network = RoadNetwork::derive(&plan, &without_lights).expect("it is a plan");
+        let config = TrafficConfig::default();
+        (Tracks::new(Arc::new(network), &config), config)
+    }
+
+    #[test]
+    fn who_stands_beside_one_who_wants_to_come_over_as_well_does_not_leave_the_map() {
+        let (tracks, config) = fork();
+        let mut vehicles = VehicleManager::new(&tracks);
+        let lanes = &tracks.network.roads[0].forward;
+        let leads_to = |road: u32| {
+            let leads = |lane: &&LaneId| tracks.exits(lane.0).iter().all(|(_, to)| *to == leg(road));
+            lanes.iter().find(leads).expect("each lane leads to one side").0
+        };
+        // To the street on the right, from which no way leads back, in the left lane; and beside him to the last one by the left, in the right
+        // lane.
+        let places = [(leads_to(1), vec![leg(0), leg(3)]), (leads_to(3), [0, 1, 2, 5].map(leg).to_vec())];
+        for (id, (lane, route)) in places.into_iter().enumerate() {
+            let route = vehicles.add_route(Route(route));
+            let s = tracks.length[lane as usize] - 18.4;
+            let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, id as u32, s);
+            vehicles.whereabouts.push(lane);
+            vehicles.storage.add(lane, &car, &config);
+            vehicles.push(&tracks, lane, car, Path::new(lane, route, 0.0, 0.0));
+        }
+        let zeros = vec![0; tracks.network.crossings.len()];
+        let sight = Sight { aspects: &[], shown: &[], walkers: &zeros, waiting: &zeros, obstacles: &[] };
+        let mut counters = Counters::default();
+        for step in 0..1800 {
+            let at = Moment { now: step as f64 * 0.1, dt: 0.1, step };
+            vehicles.step(&tracks, &config, Seed(1).stream("cars"), sight, at, &mut counters, &Alone);
+        }
+        assert_eq!((counters.arrived, counters.removed), (2, 0), "{counters:?}");
+        assert_eq!(counters.rerouted, 1, "the other takes another way and lets him in");
     }
 
     #[test]

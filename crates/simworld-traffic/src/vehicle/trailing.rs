@@ -50,6 +50,16 @@ impl Trail {
         }
     }
 
+    /// Whose rear it is.
+    pub(super) fn id(&self) -> u32 {
+        self.id
+    }
+
+    /// Whether the rear is on a way, before a station of the lane behind it: a negative one is on the way.
+    pub(super) fn is_on(&self, way: u32, until: f64) -> bool {
+        self.way == way && self.rear < until
+    }
+
     /// The lane whose end it is, and how it looks there.
     pub(super) fn shown(&self) -> (Track, Tail) {
         let Self { rear, v, length, way, granted, .. } = *self;
