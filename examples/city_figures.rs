@@ -72,7 +72,7 @@ impl Rows {
         let mut table = Table::new();
         table.load_style(UTF8_FULL_CONDENSED);
         table.set_header(["what", "measured", "bar"]);
-        rows.add_rows(&self.0);
+        table.add_rows(&self.0);
         if let Some(column) = table.column_mut(1) {
             column.set_cell_alignment(CellAlignment::Right);
         }
