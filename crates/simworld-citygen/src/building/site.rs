@@ -133,8 +133,8 @@ fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
         // Reckoned for every side and kept of those that cross: which they are differs from lot to lot.
         let crosses = (a.y > y) != (b.y > y);
         let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-        low = if crosses & (x < low) { x } else { low };
-        high = if crosses & (x > high) { x } else { high };
+        low = low.min(if crosses { x } else { f64::INFINITY });
+        high = high.max(if crosses { x } else { f64::NEG_INFINITY });
         a = *b;
     }
     (low <= high).then_some((low, high))

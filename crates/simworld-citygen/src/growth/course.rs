@@ -26,7 +26,7 @@ impl Course {
         // The shares are t / det and u / det: divided only if both lie from 0 to 1.
         let (size, t, u) = if det < 0.0 { (-det, -t, -u) } else { (det, t, u) };
         // All of it is reckoned and nothing decided before the end: most segments fail, each by another one of these.
-        let meets = (size >= 1e-12) & (t >= 0.0) & (t <= size) & (u >= 0.0) & (u <= size);
+        let meets = [size >= 1e-12, t >= 0.0, t <= size, u >= 0.0, u <= size] == [true; 5];
         meets.then(|| t / size)
     }
 

@@ -16,8 +16,8 @@ pub(super) fn by_land(segments: Vec<u32>, reach: f64, length: f64, at: impl Fn(u
     if segments.len() <= TOWN {
         return segments;
     }
-    let wide = (2.0 * reach / (WIDTH * length)).max(2.0);
-    let bits = (wide.log2().ceil() as u32).min(MOST_BITS);
+    let wide = (2.0 * reach / (WIDTH * length)).ceil() as u32;
+    let bits = wide.clamp(2, 1 << MOST_BITS).next_power_of_two().trailing_zeros();
     let side = 2.0 * reach / f64::from(1_u32 << bits);
     let column = |metres: f64| (((metres + reach) / side) as u32).min((1 << bits) - 1);
     let squares: Vec<u32> = segments
