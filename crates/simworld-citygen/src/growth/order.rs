@@ -3,7 +3,7 @@
 use simworld_core::geometry::Point2;
 
 /// Towns of no more streets than this are numbered as they grew: all that is known of them fits into the caches.
-const TOWN: usize = 4096;
+const SMALL: usize = 4096;
 /// Squares are at least so many mean lengths of a street wide: a dozen streets or two lie in one.
 const WIDTH: f64 = 2.5;
 /// The land is no more than 2 to this power squares wide.
@@ -13,7 +13,7 @@ const MOST_BITS: u32 = 10;
 /// a square as they grew. What lies side by side then stands side by side in memory in all that is made of the streets:
 /// growth itself goes round and round the edge of the town.
 pub(super) fn by_land(segments: Vec<u32>, reach: f64, length: f64, at: impl Fn(u32) -> Point2) -> Vec<u32> {
-    if segments.len() <= TOWN {
+    if segments.len() <= SMALL {
         return segments;
     }
     let wide = (2.0 * reach / (WIDTH * length)).ceil() as u32;

@@ -5,12 +5,12 @@ mod finish;
 
 use super::derive::curve;
 use super::{
-    Connection, Control, Crossing, DrivingSide, Intersection, Lane, LaneDirection, LaneKind, NetworkFault,
-    Phase, Road, RoadClass, RoadNetwork, Side, Sidewalk, SignalGroup, SignalPlan, Turn, polyline,
+    Connection, Control, Crossing, DrivingSide, Few, Intersection, Lane, LaneDirection, LaneKind,
+    NetworkFault, Phase, Road, RoadClass, RoadNetwork, Side, Sidewalk, SignalGroup, SignalPlan, Turn,
+    polyline,
 };
 use crate::geometry::{Point2, direction};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
-use crate::net::Few;
 
 /// A road that is to be.
 #[derive(Clone, Debug, PartialEq)]

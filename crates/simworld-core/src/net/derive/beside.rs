@@ -1,22 +1,15 @@
 //! How far points are from a kerb, asked of many points.
 
+use super::pieces::{LANES, Pieces};
 use crate::geometry::Point2;
 #[cfg(test)]
 use crate::net::polyline;
 
-/// So many pieces are measured at once: each instruction works on several.
-const LANES: usize = 4;
-
-/// Some pieces of a kerb. What is left of the last block repeats the last piece.
-#[derive(Clone, Copy, Default)]
+/// Some pieces of a kerb.
+#[derive(Clone, Copy)]
 struct Block {
-    /// Where each begins.
-    x: [f64; LANES],
-    y: [f64; LANES],
-    /// The way to its end.
-    step_x: [f64; LANES],
-    step_y: [f64; LANES],
-    /// The square of its length, m²; infinite if it has none, so that every point is nearest to where it begins.
+    line: Pieces,
+    /// The square of the length of each, m²; infinite if it has none, so that every point is nearest to where it begins.
     squared: [f64; LANES],
 }
 
@@ -64,40 +57,25 @@ impl Kerb {
         let Some(piece) = self.squares.as_flattened().iter().position(is_nearest) else {
             return f64::INFINITY;
         };
-        let is_left = self.blocks[piece / LANES].is_left(piece % LANES, point);
+        let is_left = self.blocks[piece / LANES].line.is_left(piece % LANES, point);
         if is_left { distance } else { -distance }
     }
 }
 
 impl Block {
-    fn of(line: &[Point2], first: usize) -> Self {
-        let mut block = Self::default();
-        for lane in 0..LANES {
-            let index = (first + lane).min(line.len() - 2);
-            let (start, step) = (line[index], line[index + 1] - line[index]);
-            let span = step.norm();
-            (block.x[lane], block.y[lane]) = (start.x, start.y);
-            (block.step_x[lane], block.step_y[lane]) = (step.x, step.y);
-            block.squared[lane] = if span > 0.0 { span * span } else { f64::INFINITY };
-        }
-        block
+    fn of(kerb: &[Point2], first: usize) -> Self {
+        let line = Pieces::of(kerb, first);
+        let squared = |lane: usize| {
+            // By the length, as `closest` has it: the square of the step may be another by a bit.
+            let span = line.length_squared(lane).sqrt();
+            if span > 0.0 { span * span } else { f64::INFINITY }
+        };
+        Self { line, squared: std::array::from_fn(squared) }
     }
 
     /// The squares of the distances of a point from its pieces, m².
     fn distances_squared(&self, point: &Point2) -> [f64; LANES] {
-        std::array::from_fn(|lane| {
-            let (to_x, to_y) = (point.x - self.x[lane], point.y - self.y[lane]);
-            let (along_x, along_y) = (self.step_x[lane], self.step_y[lane]);
-            let share = ((to_x * along_x + to_y * along_y) / self.squared[lane]).clamp(0.0, 1.0);
-            let (away_x, away_y) = (to_x - along_x * share, to_y - along_y * share);
-            away_x * away_x + away_y * away_y
-        })
-    }
-
-    /// Whether a point lies on the left of one of its pieces.
-    fn is_left(&self, lane: usize, point: &Point2) -> bool {
-        let (to_x, to_y) = (point.x - self.x[lane], point.y - self.y[lane]);
-        self.step_x[lane] * to_y - self.step_y[lane] * to_x >= 0.0
+        self.line.distances_squared(point, |product, lane| product / self.squared[lane])
     }
 }
 

@@ -33,7 +33,6 @@ struct Builder {
     traces: Traces,
     claims: Vec<Claim>,
     met: Vec<Meeting>,
-    crossings: Vec<CrossingId>,
     kerb: Kerb,
 }
 
@@ -407,9 +406,7 @@ impl Builder {
                 let strip = &network.crossings[crossing.index()];
                 self.traces.crosses(&claim.trace, strip.start, strip.end)
             };
-            self.crossings.clear();
-            self.crossings.extend(all.iter().copied().filter(is_over));
-            self.made[claim.id.index()].crossings = self.crossings.as_slice().into();
+            self.made[claim.id.index()].crossings = all.iter().copied().filter(is_over).collect();
         }
     }
 }

@@ -9,16 +9,16 @@ mod lanes;
 mod legs;
 mod mirror;
 mod near_side;
+mod pieces;
 mod signals;
 mod trace;
 mod walkways;
 mod workers;
 
-use crate::net::Few;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Control, DrivingSide, Intersection, Road, RoadClass, RoadNetwork, Street, StreetPlan};
+use super::{Control, DrivingSide, Few, Intersection, Road, RoadClass, RoadNetwork, Street, StreetPlan};
 use crate::geometry::Point2;
 use crate::id::{IntersectionId, RoadId};
 pub(super) use connections::{curve, settle};

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::pieces::{LANES, Pieces};
 use crate::geometry::{Point2, Vector2};
 use crate::net::polyline;
 
@@ -14,19 +15,11 @@ const SLACK: f64 = 1e-6;
 /// A little more than the square root of two.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2 + 1e-6;
 
-/// So many pieces are measured at once: each instruction works on several.
-const LANES: usize = 4;
-
-/// Some pieces of a path. What is left of the last block of a path repeats its last piece.
-#[derive(Clone, Copy, Default)]
+/// Some pieces of a path.
+#[derive(Clone, Copy)]
 struct Block {
-    /// Where each begins.
-    x: [f64; LANES],
-    y: [f64; LANES],
-    /// The way to its end.
-    step_x: [f64; LANES],
-    step_y: [f64; LANES],
-    /// One over the square of its length, 1/m²; nothing if it has none.
+    line: Pieces,
+    /// One over the square of the length of each, 1/m²; nothing if it has none.
     inverse: [f64; LANES],
     /// The box round all of them.
     low: [f64; 2],
@@ -43,21 +36,18 @@ impl Block {
             (low, high) = (low.inf(point), high.sup(point));
         }
         let is_last = first + pieces == path.len() - 1;
-        let mut block = Self {
+        let line = Pieces::of(path, first);
+        let inverse = |lane: usize| {
+            let squared = line.length_squared(lane);
+            if squared > 0.0 { 1.0 / squared } else { 0.0 }
+        };
+        Self {
+            line,
+            inverse: std::array::from_fn(inverse),
             low: [low.x, low.y],
             high: [high.x, high.y],
             points: pieces + usize::from(is_last),
-            ..Self::default()
-        };
-        for lane in 0..LANES {
-            let index = (first + lane).min(path.len() - 2);
-            let (start, step) = (path[index], path[index + 1] - path[index]);
-            let squared = step.norm_squared();
-            (block.x[lane], block.y[lane]) = (start.x, start.y);
-            (block.step_x[lane], block.step_y[lane]) = (step.x, step.y);
-            block.inverse[lane] = if squared > 0.0 { 1.0 / squared } else { 0.0 };
         }
-        block
     }
 
     /// Whether the boxes come nearer to each other than a distance of that square.
@@ -72,14 +62,7 @@ impl Block {
 
     /// The square of the least distance of a point from its pieces, m².
     fn distance_squared(&self, point: &Point2) -> f64 {
-        let mut squares = [0.0; LANES];
-        for (lane, squared) in squares.iter_mut().enumerate() {
-            let (x, y) = (point.x - self.x[lane], point.y - self.y[lane]);
-            let (step_x, step_y) = (self.step_x[lane], self.step_y[lane]);
-            let share = ((x * step_x + y * step_y) * self.inverse[lane]).clamp(0.0, 1.0);
-            let (x, y) = (x - step_x * share, y - step_y * share);
-            *squared = x * x + y * y;
-        }
+        let squares = self.line.distances_squared(point, |product, lane| product * self.inverse[lane]);
         squares
             .into_iter()
             .fold(f64::INFINITY, |least, squared| if squared < least { squared } else { least })

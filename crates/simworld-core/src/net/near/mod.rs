@@ -11,9 +11,8 @@ mod ways;
 
 use self::find::Compound;
 use self::ways::Composed;
-use super::{Connection, Control, RoadNetwork, derive};
+use super::{Connection, Control, Few, RoadNetwork, derive};
 use crate::id::{ConnectionId, IntersectionId, LaneId};
-use crate::net::Few;
 
 /// A network in which near junctions are one.
 ///

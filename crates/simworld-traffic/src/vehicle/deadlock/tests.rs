@@ -1,0 +1,184 @@
+//! Locks: what is seen of them, and that they come undone.
+
+use super::super::conflicts::Conflict;
+use super::*;
+
+fn rings(edges: &[(Track, Track)]) -> Vec<Track> {
+    let mut waits = Waits { edges: edges.iter().map(|edge| (edge.0, edge.1, 0)).collect() };
+    (0..edges.len()).filter_map(|start| waits.ring_from(start)).collect()
+}
+
+#[test]
+fn locks_are_looked_for_in_every_second() {
+    // A clock that counts microseconds makes the second of a tenth.
+    for dt in [0.1, 100_000.0 * 1e-6, 0.04, 0.25, 1.0 / 3.0, 1.0 / 60.0] {
+        let steps = (4000.5 / dt) as u64;
+        let due: Vec<u64> = (0..steps).filter(|step| is_due(*step, dt, EVERY)).collect();
+        assert_eq!(due.len(), 4000, "with steps of {dt} s");
+        let apart = due.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * dt);
+        assert!(apart.clone().all(|apart| (apart - EVERY).abs() < 1.01 * dt), "with steps of {dt} s");
+    }
+}
+
+#[test]
+fn who_turns_at_random_is_not_sent_to_where_he_would_stand_for_good() {
+    use simworld_core::geometry::Point2;
+    use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+    let mut plan = StreetPlan::grid(2, 2, 100.0);
+    let out = plan.add_section(CrossSection::two_way(1, 0));
+    let (street, end) = (plan.streets.len() as u32, plan.nodes.len());
+    plan.nodes.push(Point2::new(-100.0, 0.0));
+    plan.streets.push(Street { section: out, ..Street::simple(0, end) });
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+    let config = TrafficConfig::default();
+    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+    let mut vehicles = VehicleManager::new(&tracks);
+    let leads_out = |way: &usize| tracks.network.lanes[tracks.lane_after(*way) as usize].road.0 == street;
+    let way_out = (0..tracks.ways.len()).find(leads_out).expect("a way leads out");
+    let lane = tracks.ways[way_out].from;
+    let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 0, 20.0);
+    vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+    let outgoing = &tracks.network.lanes[lane as usize].outgoing;
+    assert!(outgoing.len() > 1);
+    for way in outgoing {
+        let leads_home = vehicles.leads_home(&tracks, lane, way.0);
+        assert_eq!(leads_home, way.index() != way_out, "way {}", way.0);
+    }
+}
+
+#[test]
+fn who_changes_out_of_a_lane_holds_up_who_changes_into_the_one_beyond() {
+    use simworld_core::geometry::Point2;
+    use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+    let nodes = vec![Point2::new(0.0, 0.0), Point2::new(100.0, 0.0)];
+    let mut plan = StreetPlan { nodes, ..StreetPlan::default() };
+    let section = plan.add_section(CrossSection::two_way(3, 0));
+    plan.streets.push(Street { section, ..Street::simple(0, 1) });
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+    let config = TrafficConfig::default();
+    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+    let mut vehicles = VehicleManager::new(&tracks);
+    let middle = (0..3).find(|lane| !tracks.beside[*lane as usize].contains(&NONE)).expect("three lanes");
+    let [left, right] = tracks.beside[middle as usize];
+    // Both come from the middle: to the left at 40 m, to the right at 46 m.
+    let put = |vehicles: &mut VehicleManager, id: u32, lane: Track, s: f64, shift: f32| {
+        let car = Vehicle { shift, stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+        vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+    };
+    put(&mut vehicles, 0, left, 40.0, -2.0);
+    let first = vehicles.queue(&tracks, left)[0];
+    assert_eq!(vehicles.has_half_changed(&tracks, left, &first), None, "nobody is before it");
+    put(&mut vehicles, 1, right, 46.0, 2.0);
+    assert_eq!(vehicles.has_half_changed(&tracks, left, &first), Some(right));
+}
+
+/// Two parallel streets with cross streets between them on which a bus does not fit, and drivers without anybody.
+fn near_junctions() -> (Tracks, TrafficConfig, VehicleManager) {
+    use simworld_core::geometry::Point2;
+    use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+    let mut plan = StreetPlan::default();
+    for y in [0.0, 16.0] {
+        plan.nodes.extend((0..3).map(|column| Point2::new(130.0 * f64::from(column), y)));
+    }
+    plan.streets.extend([0, 1, 3, 4].map(|node| Street::simple(node, node + 1)));
+    plan.streets.extend((0..3).map(|node| Street::simple(node, node + 3)));
+    plan.nodes.push(Point2::new(130.0, -100.0));
+    plan.streets.push(Street::simple(1, 6));
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+    let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
+    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+    let vehicles = VehicleManager::new(&tracks);
+    (tracks, config, vehicles)
+}
+
+#[test]
+fn who_waits_for_the_rear_of_a_bus_behind_a_short_lane_waits_for_the_lane_of_its_front() {
+    use super::super::trailing::Trail;
+
+    let (tracks, config, mut vehicles) = near_junctions();
+    let row = config.types.iter().position(|row| row.length > 11.0).expect("there are buses");
+    let length = config.types[row].length;
+    let is_short = |lane: Track| tracks.length[lane as usize] < 6.0;
+    // Where the rear of a bus on a way is that has just come to the end of the lane behind it.
+    let rear = |way: u32| {
+        let after = tracks.lane_after(way as usize);
+        tracks.length[tracks.lanes + way as usize] + tracks.length[after as usize] - length
+    };
+    let meets = |(way, other): &(usize, &Conflict)| {
+        is_short(tracks.lane_after(other.way as usize))
+            && (1.0..other.other.passed()).contains(&rear(other.way))
+            && tracks.ways[*way].from != tracks.ways[other.way as usize].from
+    };
+    let mut pairs =
+        (0..tracks.ways.len()).flat_map(|way| tracks.conflicts[way].iter().map(move |other| (way, other)));
+    let (own, conflict) = pairs.find(meets).expect("ways into short lanes are met by others");
+    let short = tracks.lane_after(conflict.way as usize);
+    let exits = tracks.exits(short).iter().map(|exit| tracks.lane_after(exit.0 as usize));
+    let beyond = exits.max_by_key(|lane| tracks.length[*lane as usize] as u32).expect("it leads on");
+    let bus = |s: f64| {
+        let bus = Vehicle::new(config.vehicle_type(row as u8), row as u8, 1.0, 0, s);
+        Vehicle { stood: 60.0, ..bus }
+    };
+    vehicles.whereabouts.push(beyond);
+    vehicles.push(&tracks, beyond, bus(3.0), Path::new(beyond, NONE, 0.0, 0.0));
+    let lane = tracks.ways[own].from;
+    let line = tracks.length[lane as usize] - 0.5;
+    let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 1, line);
+    let car = Vehicle { stood: 60.0, next: own as u32, ..car };
+    vehicles.whereabouts.push(lane);
+    vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &car), None, "nobody is in its way");
+    let mut trails_at = |s: f64| {
+        let bus = Vehicle { holding: conflict.way, ..bus(s) };
+        vehicles.trails = vec![Trail::new(&bus, &Path::new(short, NONE, 0.0, 0.0), short)];
+        vehicles.waits_behind(&tracks, &config, lane, &car)
+    };
+    let end = tracks.length[short as usize];
+    assert_eq!(trails_at(end), Some(beyond));
+    let passed = conflict.other.passed() - tracks.length[tracks.lanes + conflict.way as usize];
+    assert_eq!(trails_at(length + passed + 0.1), None, "its rear is out of the way");
+}
+
+#[test]
+fn who_needs_the_permit_of_one_on_a_way_waits_for_that_for_which_he_stands() {
+    use super::super::clusters::Permit;
+
+    let (tracks, config, mut vehicles) = near_junctions();
+    let car = |id, s| Vehicle { stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+    let cluster = |way: usize| tracks.clusters.of(&tracks, tracks.lane_after(way), &car(0, 0.0));
+    let others = |way: &usize| {
+        let is_other = |other: &usize| {
+            tracks.ways[*other].from != tracks.ways[*way].from
+                && tracks.ways[*other].to != tracks.ways[*way].to
+        };
+        let mut same = (0..tracks.ways.len()).filter(|other| cluster(*other) == cluster(*way));
+        cluster(*way).is_some().then(|| same.find(is_other)).flatten()
+    };
+    let (own, other) =
+        (0..tracks.ways.len()).find_map(|way| Some((way, others(&way)?))).expect("clusters have many ways");
+    let (lane, on_way) = (tracks.ways[own].from, (tracks.lanes + other) as Track);
+    let first = Vehicle { next: own as u32, ..car(1, tracks.length[lane as usize] - 0.5) };
+    let holder = Vehicle { next: other as u32, holding: other as u32, ..car(0, 2.0) };
+    for (track, vehicle) in [(on_way, holder), (lane, first)] {
+        vehicles.whereabouts.push(track);
+        vehicles.push(&tracks, track, vehicle, Path::new(track, NONE, 0.0, 0.0));
+    }
+    assert_eq!(vehicles.holder_of_permit(&tracks, &first), None, "nobody has it");
+    vehicles.permits.push(Permit::new(0, cluster(own).expect("it is one")));
+    assert_eq!(vehicles.holder_of_permit(&tracks, &first), Some(tracks.lane_after(other)));
+    vehicles.both_mut(&tracks, on_way).0[0].v = 1.0;
+    assert_eq!(vehicles.holder_of_permit(&tracks, &first), None, "he goes");
+}
+
+#[test]
+fn every_ring_is_found_once() {
+    // Two rings, 0-1-2 and 5-6, a tail 3-4 into the first, and 8 that waits for a lane which moves.
+    let edges = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 1), (5, 6), (6, 5), (8, 9)];
+    assert_eq!(rings(&edges), [0, 5]);
+    assert_eq!(rings(&[(1, 2), (2, 3), (3, 2)]), [2]);
+    assert_eq!(rings(&[(1, 2), (2, 3)]), []);
+    assert_eq!(rings(&[(7, 7)]), [7]);
+}
