@@ -15,6 +15,7 @@ mod names;
 pub mod output;
 mod parts;
 mod pedestrian;
+mod ragged;
 mod route;
 pub mod signal;
 #[cfg(feature = "sumo")]

@@ -72,7 +72,7 @@ fn write_routes(workload: Workload, files: &Files) -> Result<(), BesideError> {
         let mut edges = vec![net.names.edge(*first)];
         let mut leg = *first;
         while edges.len() < EDGES
-            && let Some(next) = rng.choose(&router.after(leg)).copied()
+            && let Some(next) = rng.choose(&router.after(leg).collect::<Vec<_>>()).copied()
         {
             leg = next;
             edges.push(net.names.edge(leg));

@@ -40,7 +40,7 @@ impl LegHierarchy {
             to: to.0,
             weight: ((time * UNITS).round() as u64).max(1),
         };
-        let edges: Vec<WeightedEdge> = router.edges().map(weighed).collect();
+        let edges: Vec<WeightedEdge> = router.pairs().map(weighed).collect();
         let hierarchy = Hierarchy::new(network.roads.len() * 2, &edges);
         Self { edges, hierarchy }
     }

@@ -1,15 +1,15 @@
 //! Routes: chains of legs, a leg being one direction of a road; and the quickest one between two.
 
-mod delayed;
 #[cfg(feature = "hierarchy")]
 mod hierarchy;
+mod landmarks;
+mod legs;
+mod router;
+mod search;
 
-pub(crate) use delayed::Search;
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{LegHierarchy, LegScratch};
-use petgraph::algo::astar;
-use petgraph::graph::{DiGraph, NodeIndex};
-use petgraph::visit::EdgeRef;
+pub use router::Router;
 use serde::{Deserialize, Serialize};
 use simworld_core::id::{LaneId, RoadId};
 use simworld_core::net::{LaneDirection, RoadNetwork};
@@ -121,103 +121,4 @@ impl Route {
 fn leads_to(network: &RoadNetwork, from: Leg, to: Leg) -> bool {
     let ways = from.lanes(network).iter().flat_map(|lane| &network.lanes[lane.index()].outgoing);
     ways.into_iter().any(|way| Leg::of(network, network.connections[way.index()].to) == to)
-}
-
-/// Finds quickest routes by free travel time.
-#[derive(Clone, Debug)]
-pub struct Router {
-    graph: DiGraph<(), f64, u32>,
-    legs: delayed::Legs,
-}
-
-impl Router {
-    /// Prepares a network.
-    pub fn new(network: &RoadNetwork) -> Self {
-        let mut graph = DiGraph::with_capacity(network.roads.len() * 2, network.connections.len());
-        for _ in 0..network.roads.len() * 2 {
-            graph.add_node(());
-        }
-        let mut known = Vec::new();
-        // Cycle lanes are no way for a vehicle.
-        let is_driven = |lane: LaneId| network.lanes[lane.index()].is_driven();
-        for connection in network.connections.iter().filter(|way| is_driven(way.from) && is_driven(way.to)) {
-            let (from, to) = (Leg::of(network, connection.from), Leg::of(network, connection.to));
-            let lane = &network.lanes[connection.to.index()];
-            known.push((from, to, (connection.length + lane.length) / lane.speed_limit));
-        }
-        // One edge a pair of legs, the quickest of the ways between their lanes.
-        known.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
-        known.dedup_by_key(|edge| (edge.0, edge.1));
-        for (from, to, time) in &known {
-            graph.add_edge(NodeIndex::new(from.0 as usize), NodeIndex::new(to.0 as usize), *time);
-        }
-        Self { graph, legs: delayed::Legs::new(network, &known) }
-    }
-
-    /// The quickest route from one leg to another, both included; `None` if there is none.
-    pub fn quickest(&self, from: Leg, to: Leg) -> Option<Route> {
-        self.quickest_open(from, to, |_| true)
-    }
-
-    /// The quickest route on legs that are open, the first apart, on which one is already; `None` if there is none.
-    pub fn quickest_open(&self, from: Leg, to: Leg, is_open: impl Fn(Leg) -> bool) -> Option<Route> {
-        self.quickest_between(from, to, |_, leg| is_open(leg))
-    }
-
-    /// The same where it depends on the leg before whether one can go on to a leg.
-    pub(crate) fn quickest_between(
-        &self,
-        from: Leg,
-        to: Leg,
-        is_open: impl Fn(Leg, Leg) -> bool,
-    ) -> Option<Route> {
-        let count = self.graph.node_count() as u32;
-        if from.0 >= count || to.0 >= count {
-            return None;
-        }
-        let target = NodeIndex::new(to.0 as usize);
-        let found = astar(
-            &self.graph,
-            NodeIndex::new(from.0 as usize),
-            |node| node == target,
-            |edge| {
-                let ends = [edge.source(), edge.target()].map(|node| Leg(node.index() as u32));
-                if is_open(ends[0], ends[1]) { *edge.weight() } else { f64::INFINITY }
-            },
-            |_| 0.0,
-        )?;
-        if found.0.is_infinite() {
-            return None; // it leads over what is closed
-        }
-        Some(Route(found.1.into_iter().map(|node| Leg(node.index() as u32)).collect()))
-    }
-
-    /// Free travel time of a route after its first leg, s: what [`quickest`](Self::quickest) makes least. `None` if a leg
-    /// does not lead on to the next.
-    pub fn time(&self, route: &Route) -> Option<f64> {
-        let node = |leg: Leg| NodeIndex::new(leg.0 as usize);
-        let time = |pair: &[Leg]| {
-            let edge = self.graph.find_edge(node(pair[0]), node(pair[1]))?;
-            self.graph.edge_weight(edge).copied()
-        };
-        route.0.windows(2).map(time).sum()
-    }
-
-    /// Every pair of legs that follow one another, with the time that the second takes, s.
-    #[cfg(feature = "hierarchy")]
-    fn edges(&self) -> impl Iterator<Item = (Leg, Leg, f64)> {
-        let leg = |node: NodeIndex| Leg(node.index() as u32);
-        self.graph.edge_references().map(move |edge| (leg(edge.source()), leg(edge.target()), *edge.weight()))
-    }
-
-    /// The legs that follow one, ascending.
-    pub fn after(&self, leg: Leg) -> Vec<Leg> {
-        let mut next: Vec<Leg> = self
-            .graph
-            .edges(NodeIndex::new(leg.0 as usize))
-            .map(|edge| Leg(edge.target().index() as u32))
-            .collect();
-        next.sort_unstable();
-        next
-    }
 }

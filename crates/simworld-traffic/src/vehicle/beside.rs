@@ -7,10 +7,10 @@ use simworld_core::id::ConnectionId;
 use simworld_core::net::RoadNetwork;
 
 use super::conflicts::Conflict;
-use super::ragged::Ragged;
 use super::swept::{Size, Sweep};
 use super::types::is_long;
 use crate::TrafficConfig;
+use crate::ragged::Ragged;
 
 /// Up to this length it is a car or a van, m; beyond, up to a long vehicle, a lorry.
 const CAR: f64 = 6.0;

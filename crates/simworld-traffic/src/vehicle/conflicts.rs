@@ -4,9 +4,9 @@ use simworld_core::id::ConnectionId;
 use simworld_core::net::{Connection, Ends, RoadNetwork, WayTrace, Zone};
 
 use super::beside::Pairs;
-use super::ragged::Ragged;
 use super::types::is_long;
 use crate::TrafficConfig;
+use crate::ragged::Ragged;
 
 /// Room beside a body for what it sweeps over in a turn: the chord of seven metres on a radius of eight, and toes, m.
 const SWEPT: f64 = 0.9;

@@ -13,7 +13,6 @@ use super::deadlock::is_due;
 use super::delays;
 use super::manager::VehicleManager;
 use super::tracks::{Track, Tracks};
-use crate::route::Search;
 use crate::{Counters, Leg, Route, TrafficConfig};
 
 /// Everybody thinks once in so long, s.
@@ -31,16 +30,7 @@ pub(super) struct Detours {
     places: Vec<u32>,
     free: Vec<u32>,
     #[serde(skip)]
-    search: Search,
-    #[serde(skip)]
     found: Route,
-}
-
-impl PartialEq for Search {
-    /// Memory is no state.
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
 }
 
 impl Detours {
@@ -129,7 +119,7 @@ impl VehicleManager {
             return false;
         }
         let mut detours = std::mem::take(&mut self.detours);
-        let Detours { search, found, .. } = &mut detours;
+        let found = &mut detours.found;
         found.0.clear();
         found.0.extend_from_slice(&legs[..ahead]);
         let exits = if ahead == 0 { tracks.exits(track) } else { &[] };
@@ -137,8 +127,9 @@ impl VehicleManager {
         let is_open = |before: Leg, leg: Leg| {
             (ahead > 0 || before != here || leads_on(leg)) && self.closures.leads_on(tracks, before, leg)
         };
+        let delay = |before: Leg, leg: Leg| is_open(before, leg).then(|| delay(leg));
         let ends = (here, goal, time - gain);
-        let is_better = tracks.router.quickest_delayed(ends, delay, is_open, search, found);
+        let is_better = tracks.router.quickest_delayed(ends, delay, found);
         if is_better {
             let place = self.keep_detour(&mut detours, id, path.route);
             let (_, paths) = self.both_mut(tracks, track);

@@ -127,8 +127,8 @@ pub(super) fn way_off(tracks: &Tracks, from: Leg, goal: Leg) -> Option<Route> {
     let (mut found, mut seen) = (vec![(from, 0)], BTreeSet::from([from]));
     let mut at = 0;
     while let Some((leg, _)) = found.get(at).copied() {
-        let after = tracks.router.after(leg);
-        if after.is_empty() {
+        let mut after = tracks.router.after(leg).peekable();
+        if after.peek().is_none() {
             let mut legs = vec![leg];
             while at > 0 {
                 at = found[at].1;
@@ -137,7 +137,7 @@ pub(super) fn way_off(tracks: &Tracks, from: Leg, goal: Leg) -> Option<Route> {
             legs.reverse();
             return Some(Route(legs));
         }
-        found.extend(after.into_iter().filter(|leg| seen.insert(*leg)).map(|leg| (leg, at)));
+        found.extend(after.filter(|leg| seen.insert(*leg)).map(|leg| (leg, at)));
         at += 1;
     }
     None

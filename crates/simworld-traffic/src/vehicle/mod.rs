@@ -34,7 +34,6 @@ mod passing;
 mod patience;
 mod perception;
 mod precedence;
-mod ragged;
 mod reroute;
 mod saved;
 mod sirens;

@@ -13,9 +13,9 @@ use super::clusters::Clusters;
 use super::conflicts::{Conflict, conflicts};
 use super::layout::Layout;
 use super::manager::NONE;
-use super::ragged::Ragged;
 use super::trailing::SPARE;
 use super::{VehicleKind, kerb, lanes, onward};
+use crate::ragged::Ragged;
 use crate::{Leg, Router, TrafficConfig};
 
 /// A lane or a connection: lanes come first.

@@ -32,7 +32,7 @@ fn routes(network: &RoadNetwork) -> Vec<Route> {
     let router = Router::new(network);
     let lanes = (0..network.lanes.len()).step_by(29).map(LaneId::from_index);
     let legs = lanes.map(|lane| Leg::of(network, lane));
-    legs.filter_map(|leg| Some(Route(vec![leg, *router.after(leg).first()?]))).collect()
+    legs.filter_map(|leg| Some(Route(vec![leg, router.after(leg).next()?]))).collect()
 }
 
 fn digests(

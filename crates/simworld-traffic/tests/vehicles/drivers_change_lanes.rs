@@ -97,7 +97,8 @@ fn whoever_is_taken_out_leaves_nothing_behind() {
     // The junctions are free again: newcomers cross them.
     let router = Router::new(traffic.network());
     let from = Leg::new(RoadId(0), LaneDirection::Forward);
-    let route = router.quickest(from, router.after(router.after(from)[0])[0]).unwrap();
+    let next = |leg| router.after(leg).next().unwrap();
+    let route = router.quickest(from, next(next(from))).unwrap();
     traffic.insert(route, VehicleKind::Car).unwrap();
     for _ in 0..3000 {
         traffic.step(0.1);

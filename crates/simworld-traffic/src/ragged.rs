@@ -10,6 +10,13 @@ pub(crate) struct Ragged<T> {
     items: Vec<T>,
 }
 
+impl<T> Ragged<T> {
+    /// How many lists there are.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+}
+
 impl<T> Index<usize> for Ragged<T> {
     type Output = [T];
 
