@@ -10,6 +10,13 @@ pub(crate) struct Ragged<T> {
     items: Vec<T>,
 }
 
+impl<T> Default for Ragged<T> {
+    /// No lists.
+    fn default() -> Self {
+        Self { starts: vec![0], items: Vec::new() }
+    }
+}
+
 impl<T> Ragged<T> {
     /// How many lists there are.
     pub(crate) fn len(&self) -> usize {

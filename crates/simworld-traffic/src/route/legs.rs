@@ -7,7 +7,7 @@ use super::Leg;
 use crate::ragged::Ragged;
 
 /// By leg: which follow it, ascending, and the time to their ends when they are free, s.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Legs(Ragged<(Leg, f64)>);
 
 impl Legs {

@@ -9,6 +9,7 @@ mod search;
 
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{LegHierarchy, LegScratch};
+pub(crate) use landmarks::Landmarks;
 pub use router::Router;
 use serde::{Deserialize, Serialize};
 use simworld_core::id::{LaneId, RoadId};

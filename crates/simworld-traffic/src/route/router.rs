@@ -1,7 +1,5 @@
 //! Quickest routes between two legs, as the streets are when they are free or as slow as somebody knows them to be.
 
-use std::sync::OnceLock;
-
 use simworld_core::net::RoadNetwork;
 
 use super::landmarks::Landmarks;
@@ -14,14 +12,12 @@ use super::{Leg, Route};
 pub struct Router {
     legs: Legs,
     searches: Searches,
-    /// For those who look while they drive: many of them, and most find nothing better. Made when the first does.
-    landmarks: OnceLock<Landmarks>,
 }
 
 impl Router {
     /// Prepares a network.
     pub fn new(network: &RoadNetwork) -> Self {
-        Self { legs: Legs::new(network), searches: Searches::default(), landmarks: OnceLock::new() }
+        Self { legs: Legs::new(network), searches: Searches::default() }
     }
 
     /// The quickest route from one leg to another, both included; `None` if there is none.
@@ -47,20 +43,23 @@ impl Router {
         is_found.then_some(route)
     }
 
-    /// The quickest route from one leg to another, both included, if it takes less than `most`, s, after the first. A leg takes so much
-    /// longer behind another, s, than it does when it is free, or is shut there if there is no delay. It is put behind what `into` holds;
-    /// false, and nothing is put there, if there is none.
+    /// The quickest route on what is open from one leg to another, both included, if it takes less than `most`, s, after the first, where
+    /// every leg takes so much longer than it does when it is free, s. Landmarks are by the same delays, or have forgotten theirs. It is put
+    /// behind what `into` holds; false, and nothing is put there, if there is none.
     pub(crate) fn quickest_delayed(
         &self,
-        (from, to, most): (Leg, Leg, f64),
-        delay: impl Fn(Leg, Leg) -> Option<f64>,
+        ends: (Leg, Leg, f64),
+        delay: impl Fn(Leg) -> f64,
+        is_open: impl Fn(Leg, Leg) -> bool,
+        landmarks: &mut Landmarks,
         into: &mut Route,
     ) -> bool {
-        let landmarks = self.landmarks.get_or_init(|| Landmarks::new(&self.legs, &self.searches));
-        self.search((from, to, most), delay, |leg| landmarks.least(leg, to), into)
+        landmarks.see(&self.legs, &self.searches, &delay);
+        let cost = |before, leg| is_open(before, leg).then(|| delay(leg));
+        self.search(ends, cost, |leg| landmarks.least(leg, ends.1), into)
     }
 
-    /// The same with a time to the goal that no way from a leg is below, s.
+    /// The same by the delay of a leg behind another, none where it is shut, and a time to the goal that no way from a leg is below, s.
     fn search(
         &self,
         (from, to, most): (Leg, Leg, f64),
@@ -150,6 +149,7 @@ mod tests {
         let router = Router::new(&network);
         let slow =
             |leg: Leg| if leg.index().is_multiple_of(3) { 7.0 * (leg.index() % 5) as f64 } else { 0.0 };
+        let mut landmarks = Landmarks::default();
         for from in legs(&network) {
             let [free, slowed] = [times(&router, from, |_| 0.0), times(&router, from, slow)];
             for to in legs(&network).step_by(7) {
@@ -162,14 +162,14 @@ mod tests {
                 let mut found = Route::default();
                 let most = slowed[to.index()] + 1e-6;
                 assert_eq!(
-                    router.quickest_delayed((from, to, most), |_, leg| Some(slow(leg)), &mut found),
+                    router.quickest_delayed((from, to, most), slow, |_, _| true, &mut landmarks, &mut found),
                     time.is_some()
                 );
                 if time.is_some() {
                     let own = router.delayed_time(&found.0, slow).expect("it leads on");
                     assert!((own - slowed[to.index()]).abs() < 1e-9, "{found:?}");
                     let less = (from, to, slowed[to.index()] - 1e-6);
-                    assert!(!router.quickest_delayed(less, |_, leg| Some(slow(leg)), &mut found));
+                    assert!(!router.quickest_delayed(less, slow, |_, _| true, &mut landmarks, &mut found));
                 }
             }
         }
@@ -184,14 +184,15 @@ mod tests {
         let known = router.quickest(from, to).expect("a grid is connected");
         let slow = known.0[known.0.len() / 2];
         let mut round = Route(vec![from]);
-        let delay = |_, leg| Some(if leg == slow { 600.0 } else { 0.0 });
-        assert!(router.quickest_delayed(ends, delay, &mut round));
+        let delay = |leg| if leg == slow { 600.0 } else { 0.0 };
+        let mut landmarks = Landmarks::default();
+        assert!(router.quickest_delayed(ends, delay, |_, _| true, &mut landmarks, &mut round));
         assert_eq!(round.0[..2], [from, from], "what was there stays");
         assert!(!round.0.contains(&slow) && round.0.last() == Some(&to));
         let open = router.quickest_open(from, to, |leg| leg != slow).expect("a grid has other ways");
         assert!(!open.0.contains(&slow));
         let mut none = Route::default();
-        assert!(!router.quickest_delayed(ends, |before, _| (before != from).then_some(0.0), &mut none));
+        assert!(!router.quickest_delayed(ends, delay, |before, _| before != from, &mut landmarks, &mut none));
         assert_eq!(none.0, []);
     }
 }

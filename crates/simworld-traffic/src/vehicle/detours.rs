@@ -13,6 +13,7 @@ use super::deadlock::is_due;
 use super::delays;
 use super::manager::VehicleManager;
 use super::tracks::{Track, Tracks};
+use crate::route::Landmarks;
 use crate::{Counters, Leg, Route, TrafficConfig};
 
 /// Everybody thinks once in so long, s.
@@ -29,6 +30,9 @@ pub(super) struct Detours {
     /// All such places, ascending, and those that nobody has any more.
     places: Vec<u32>,
     free: Vec<u32>,
+    /// How far it is at least, by the delays of now.
+    #[serde(skip)]
+    landmarks: Landmarks,
     #[serde(skip)]
     found: Route,
 }
@@ -69,6 +73,7 @@ impl VehicleManager {
         }
         if is_due(at.step, at.dt, delays::EVERY) {
             self.see_delays(tracks);
+            self.detours.landmarks.forget();
         }
         if !is_due(at.step, at.dt, 1.0) {
             return;
@@ -119,7 +124,7 @@ impl VehicleManager {
             return false;
         }
         let mut detours = std::mem::take(&mut self.detours);
-        let found = &mut detours.found;
+        let Detours { landmarks, found, .. } = &mut detours;
         found.0.clear();
         found.0.extend_from_slice(&legs[..ahead]);
         let exits = if ahead == 0 { tracks.exits(track) } else { &[] };
@@ -127,9 +132,8 @@ impl VehicleManager {
         let is_open = |before: Leg, leg: Leg| {
             (ahead > 0 || before != here || leads_on(leg)) && self.closures.leads_on(tracks, before, leg)
         };
-        let delay = |before: Leg, leg: Leg| is_open(before, leg).then(|| delay(leg));
         let ends = (here, goal, time - gain);
-        let is_better = tracks.router.quickest_delayed(ends, delay, found);
+        let is_better = tracks.router.quickest_delayed(ends, delay, is_open, landmarks, found);
         if is_better {
             let place = self.keep_detour(&mut detours, id, path.route);
             let (_, paths) = self.both_mut(tracks, track);
