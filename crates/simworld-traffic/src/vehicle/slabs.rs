@@ -3,7 +3,8 @@
 //!
 //! Each track that has vehicles has a slab, room for one, two, three, four, six, eight, twelve and so on of them; one that has
 //! none has no slab, and one that has far too much is given a smaller one. Memory therefore grows with the vehicles, not with
-//! the roads, and nothing is asked of the heap once the slabs are made.
+//! the roads, and nothing is asked of the heap once the slabs are made. Before there is more of it than before, the slabs that
+//! nobody has are squeezed out.
 
 use serde::{Deserialize, Serialize};
 
@@ -55,6 +56,8 @@ pub(crate) struct Slabs {
     paths: Vec<Path>,
     /// Slabs that no track has, by size.
     free: [Vec<u32>; SIZES],
+    /// Memory to sort tracks in.
+    order: Vec<u32>,
 }
 
 impl Slabs {
@@ -65,6 +68,7 @@ impl Slabs {
             vehicles: Vec::new(),
             paths: Vec::new(),
             free: std::array::from_fn(|_| Vec::new()),
+            order: Vec::new(),
         }
     }
 
@@ -163,11 +167,12 @@ impl Slabs {
 
     /// Moves the vehicles of a track to a slab of another size, which has room for them, or of the next that is free.
     fn give_slab(&mut self, track: usize, wanted: u8) {
-        let old = self.spans[track];
         let sizes = wanted..SIZES.min(usize::from(wanted) + 4) as u8;
         let free =
             sizes.filter(|_| wanted > 0).find_map(|size| Some((size, self.free[usize::from(size)].pop()?)));
         let (size, start) = free.unwrap_or_else(|| (wanted, self.new_slab(wanted)));
+        // Not before: a new slab may move all others.
+        let old = self.spans[track];
         self.vehicles.copy_within(old.range(), start as usize);
         self.paths.copy_within(old.range(), start as usize);
         if old.size() > 0 {
@@ -181,17 +186,49 @@ impl Slabs {
         if size == 0 {
             return 0;
         }
+        if self.vehicles.len() + room(size) > self.vehicles.capacity() {
+            self.make_room(room(size));
+        }
         let start = self.vehicles.len();
-        let end = start + room(size);
-        if end > self.vehicles.capacity() {
+        self.vehicles.resize(start + room(size), Vehicle::default());
+        self.paths.resize(start + room(size), Path::default());
+        start as u32
+    }
+
+    /// Makes room for so many more at the end: by squeezing out the slabs that no track has, if they are many, or with more memory.
+    fn make_room(&mut self, wanted: usize) {
+        let idle: usize = self.free.iter().zip(0..).map(|(free, size)| free.len() * room(size)).sum();
+        if idle > self.vehicles.len() / 8 {
+            self.squeeze();
+        }
+        let len = self.vehicles.len();
+        if len + wanted > self.vehicles.capacity() {
             // By a thirty-second, not by half: what is spare is spare for every vehicle of the city.
-            let more = (start / 32).max(room(size)).max(16);
+            let more = (len / 32).max(wanted).max(16);
             self.vehicles.reserve_exact(more);
             self.paths.reserve_exact(more);
         }
-        self.vehicles.resize(end, Vehicle::default());
-        self.paths.resize(end, Path::default());
-        start as u32
+    }
+
+    /// Moves the slabs of the tracks together, in the order in which they lie.
+    fn squeeze(&mut self) {
+        let mut order = std::mem::take(&mut self.order);
+        order.extend(self.occupied().map(|track| track as u32));
+        order.sort_unstable_by_key(|track| self.spans[*track as usize].start);
+        let mut end = 0;
+        for track in order.drain(..) {
+            let span = &mut self.spans[track as usize];
+            let (range, room) = (span.range(), room(span.size()));
+            span.start = end as u32;
+            // None is moved up, so that nothing is written over before it has moved itself.
+            self.vehicles.copy_within(range.clone(), end);
+            self.paths.copy_within(range, end);
+            end += room;
+        }
+        self.vehicles.truncate(end);
+        self.paths.truncate(end);
+        self.free.iter_mut().for_each(Vec::clear);
+        self.order = order;
     }
 
     /// Bytes that it takes.
@@ -200,6 +237,7 @@ impl Slabs {
             + self.occupied.capacity() * 8
             + self.vehicles.capacity() * size_of::<Vehicle>()
             + self.paths.capacity() * size_of::<Path>()
+            + self.order.capacity() * 4
             + self.free.iter().map(|free| free.capacity() * 4).sum::<usize>()
     }
 }
@@ -249,14 +287,19 @@ mod tests {
     #[test]
     fn little_is_spare() {
         let mut slabs = Slabs::new(500);
+        let mut longest = 0;
         for round in 0..20 {
             for track in 0..500 {
                 let (vehicle, path) = vehicle(round);
                 slabs.push(track, vehicle, path);
-                let (used, has) = (slabs.vehicles.len(), slabs.vehicles.capacity());
-                assert!(has - used <= used / 32 + 32, "room for {has}, of which {used} are used");
+                longest = longest.max(slabs.vehicles.len());
+                let has = slabs.vehicles.capacity();
+                assert!(has - longest <= longest / 32 + 32, "room for {has}, of which {longest} were used");
                 assert_eq!(slabs.paths.capacity(), has);
             }
+            let (has, held): (_, usize) =
+                (slabs.vehicles.capacity(), slabs.spans.iter().map(|span| room(span.size())).sum());
+            assert!(has <= held * 5 / 4 + 32, "room for {has}, of which tracks have {held}");
         }
     }
 
