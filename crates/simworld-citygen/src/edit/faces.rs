@@ -18,7 +18,7 @@ use crate::occupancy::Occupancy;
 use crate::zoning::Zoning;
 
 /// Streets as near as this to a face may reach into its lots, m.
-const NEAR: f64 = 100.0;
+pub(super) const NEAR: f64 = 100.0;
 
 /// The side of a road as a number: 2i is the left of road i, 2i + 1 its right.
 pub(super) fn side_number(road: RoadId, side: Side) -> usize {

@@ -18,6 +18,7 @@ mod index;
 mod patch;
 mod reach;
 mod replace;
+mod sides;
 mod streets;
 mod things;
 mod touched;

@@ -10,9 +10,9 @@ use simworld_core::patch::ArrayPatch;
 use super::cells::inflated;
 use super::faces::{Faces, Given, place_key, side_number};
 use super::patch::CityPatch;
+use super::sides::{Changed, both_faces};
 use super::streets::StreetsChanged;
 use super::{CityEditor, EditError};
-use crate::block::sides_round;
 use crate::building::Building;
 use crate::doors::{self, FARTHEST_DOOR};
 use crate::element::Element;
@@ -20,11 +20,6 @@ use crate::occupancy::Occupancy;
 
 /// Given elements as near as this to a road that changed may stand on it, m.
 const GIVEN_NEAR: f64 = 100.0;
-
-/// Both sides of some roads.
-fn both_sides(roads: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
-    roads.iter().flat_map(|road| [2 * road, 2 * road + 1])
-}
 
 /// What stood round the streets before they changed.
 pub(super) struct Before {
@@ -60,8 +55,10 @@ impl CityEditor {
         let StreetsChanged { plan, network } = changed;
         // Back to the streets as they were, for a look at their faces.
         let plan = plan.put_on(&mut self.city.plan)?;
-        let network = self.network_mut().put(network)?;
-        let before = self.before(roads);
+        let changed = Changed { roads: [&roads, &roads_now], near: &self.index.roads };
+        let (network, [sides, sides_now]) =
+            both_faces(std::sync::Arc::make_mut(&mut self.city.network), network, &changed)?;
+        let before = self.before(roads, sides);
         let plan = plan.put_on(&mut self.city.plan)?;
         let network = self.network_mut().put(network)?;
         let mut patch = CityPatch {
@@ -73,7 +70,7 @@ impl CityEditor {
         };
         // Roads first, for they are looked for by place.
         self.index.follow(&self.city, &patch);
-        let after = before.and_then(|before| Ok((self.after(&before, &roads_now)?, before)));
+        let after = before.and_then(|before| Ok((self.after(&before, &roads_now, &sides_now)?, before)));
         match after {
             Ok((after, before)) => {
                 self.city.frontage += after.frontage - before.frontage;
@@ -95,18 +92,21 @@ impl CityEditor {
         NetworkPatch::unchanged(&self.city.network)
     }
 
-    fn before(&self, roads: BTreeSet<usize>) -> Result<Before, EditError> {
-        let sides = sides_round(&self.city.network, both_sides(&roads));
+    fn before(&self, roads: BTreeSet<usize>, sides: BTreeSet<usize>) -> Result<Before, EditError> {
         let faces = Faces::of(&self.city, &self.index.roads, &sides)?;
         let (frontage, land) = (faces.land.frontage, faces.land_of_roads(&roads));
         Ok(Before { roads, sides, frontage, land })
     }
 
     /// Builds on the faces round the roads that changed.
-    fn after(&self, before: &Before, roads: &BTreeSet<usize>) -> Result<After, EditError> {
+    fn after(
+        &self,
+        before: &Before,
+        roads: &BTreeSet<usize>,
+        sides: &BTreeSet<usize>,
+    ) -> Result<After, EditError> {
         let city = &self.city;
-        let sides = sides_round(&city.network, both_sides(roads));
-        let mut faces = Faces::of(city, &self.index.roads, &sides)?;
+        let mut faces = Faces::of(city, &self.index.roads, sides)?;
         let land = faces.land_of_roads(roads);
         // What overlapped a road before may do so again.
         let has_room = |ground: &[Vec<Point2>]| {
@@ -123,7 +123,7 @@ impl CityEditor {
         after.elements_gone.extend(gone);
         let moved: BTreeMap<usize, &Building> =
             after.doors.iter().map(|(number, there)| (*number, there)).collect();
-        let round = self.given_round(&sides, &before.roads);
+        let round = self.given_round(sides, &before.roads);
         let round = round.iter().filter(|number| !after.buildings_gone.contains(number));
         let given = Given {
             buildings: round

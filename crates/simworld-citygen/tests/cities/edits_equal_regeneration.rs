@@ -103,8 +103,11 @@ fn edits_of_streets_give_the_city_of_the_new_streets() {
         for style in Style::ALL {
             let mut editor = CityEditor::new(city(style, 60, seed));
             let mut rng = Seed(seed).stream("edits").rng();
-            let mut done = 0;
-            for step in 0..8 {
+            // Many of these are refused: they would leave a piece of a street too short to be one.
+            let (mut step, mut done) = (0, 0);
+            while done < 6 {
+                step += 1;
+                assert!(step < 100, "{style:?} {seed}: only {done} edits were possible");
                 let before = editor.city().clone();
                 let edit = any_edit(&before, &mut rng);
                 let after = format!("{style:?} {seed}, step {step}, {edit:?}");
@@ -120,7 +123,6 @@ fn edits_of_streets_give_the_city_of_the_new_streets() {
                 editor.put(redo).expect("a redo fits");
                 assert!(*editor.city() == edited, "{after}: not done again");
             }
-            assert!(done >= 3, "{style:?} {seed}: only {done} edits were possible");
         }
     }
 }
