@@ -242,13 +242,11 @@ pub(crate) fn raise(
         planned.collect()
     };
     threads::in_order(land.lots.chunks(BATCH), plan, |plans| {
-        for Plans { buildings: planned, grounds } in plans {
-            for (building, ground) in planned.into_iter().zip(grounds) {
-                // Lots do not overlap, so this refuses only what would stand on a road.
-                if taken.take(&ground) {
-                    buildings.push(building);
-                }
-            }
+        for Plans { buildings: mut planned, grounds } in plans {
+            let mut grounds = grounds.iter();
+            // Lots do not overlap, so this refuses only what would stand on a road: nearly all go over as they stand.
+            planned.retain(|_| grounds.next().is_some_and(|ground| taken.take(ground)));
+            buildings.append(&mut planned);
         }
     });
     buildings

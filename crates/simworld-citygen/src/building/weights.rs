@@ -33,6 +33,8 @@ impl Weights {
         let level = ((lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
         let sums = &self.0[lot.zone as usize * LEVELS + level];
         let drawn = rng.unit() * sums[ARCHETYPES.len() - 1];
-        &ARCHETYPES[sums.partition_point(|sum| *sum <= drawn).min(ARCHETYPES.len() - 1)]
+        // Sums rise, so those that are passed are counted, all at a time.
+        let passed = sums.iter().map(|sum| usize::from(*sum <= drawn)).sum::<usize>();
+        &ARCHETYPES[passed.min(ARCHETYPES.len() - 1)]
     }
 }
