@@ -1,6 +1,8 @@
 //! Buildings on lots: sampled by zone, tested against everything that stands, the gaps filled.
 
+mod access;
 mod archetype;
+mod blocked;
 mod footprint;
 mod names;
 mod place;
