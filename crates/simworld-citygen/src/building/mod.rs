@@ -35,7 +35,9 @@ use rayon::prelude::*;
 use weights::Weights;
 
 /// Lots that are planned at once: enough for many threads, few enough that the plans stay small.
-const BATCH: usize = 1 << 13;
+const BATCH: usize = 1 << 11;
+/// Lots that one thread plans at once.
+const CHUNK: usize = 128;
 /// Buildings on a map share walls; what overlaps by less than twice this does not overlap, m.
 pub const SHARED_WALL: f64 = 0.1;
 /// Most storeys.
@@ -239,7 +241,7 @@ pub(crate) fn raise(
     // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
     let plan = |batch: &[Lot]| -> Vec<Plans> {
         let planned = batch
-            .par_chunks(BATCH / 64)
+            .par_chunks(CHUNK)
             .map(|lots| Planner::new(network, land, config, &weights, streams).plan_all(lots));
         planned.collect()
     };
