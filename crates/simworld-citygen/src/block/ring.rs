@@ -165,7 +165,7 @@ mod tests {
         let ring = square();
         assert_eq!(ring.split(Point2::new(4.0, 0.0), Vector2::x(), &mut west, &mut east), Split::Both);
         assert_eq!((west.area(), east.area()), (40.0, 60.0));
-        assert_eq!(west.borders, [ring.borders[0], Border::LAND, ring.borders[2], ring.borders[3]]);
+        assert_eq!(west.borders[..], [ring.borders[0], Border::LAND, ring.borders[2], ring.borders[3]]);
         let streets = |ring: &Ring| ring.borders.iter().filter(|border| border.is_street()).count();
         assert_eq!((streets(&west), streets(&east)), (3, 3));
         assert!(east.borders.contains(&ring.borders[1]) && !east.borders.contains(&ring.borders[3]));

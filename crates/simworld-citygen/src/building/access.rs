@@ -13,8 +13,10 @@ use super::Building;
 pub(super) fn lay(network: &RoadNetwork, buildings: &mut [Building]) {
     let walks: Vec<Option<&Sidewalk>> =
         buildings.iter().map(|building| network.sidewalk(building.road, building.side)).collect();
-    let paths: Vec<(&[Point2], f64)> =
-        walks.into_iter().map(|walk| walk.map_or((&[][..], 0.0), |walk| (&walk.path[..], walk.width))).collect();
+    let paths: Vec<(&[Point2], f64)> = walks
+        .into_iter()
+        .map(|walk| walk.map_or((&[][..], 0.0), |walk| (&walk.path[..], walk.width)))
+        .collect();
     for (building, (path, width)) in buildings.iter_mut().zip(paths) {
         let door = building.access;
         let best = nearest(path, door);

@@ -35,7 +35,7 @@ use rayon::prelude::*;
 use weights::Weights;
 
 /// Lots that are planned at once: enough for many threads, few enough that the plans stay small.
-const BATCH: usize = 1 << 11;
+const BATCH: usize = 1 << 13;
 /// Lots that one thread plans at once.
 const CHUNK: usize = 128;
 /// Buildings on a map share walls; what overlaps by less than twice this does not overlap, m.

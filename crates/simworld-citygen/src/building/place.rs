@@ -114,15 +114,21 @@ impl<'a> Planner<'a> {
 
     /// Plans what stands along one street of a lot.
     fn line(&mut self, lot: &Lot, edge: usize, street: (RoadId, Side), rng: &mut StreamRng) {
+        let Some(site) = self.look(lot, edge, street) else { return };
+        self.fill(&site, edge == 0, rng);
+        self.corners = site.local;
+    }
+
+    /// Looks at a lot from one of its streets, and at what stands there; `None` if that has no length.
+    fn look<'l>(&mut self, lot: &'l Lot, edge: usize, street: (RoadId, Side)) -> Option<Site<'l>> {
         let corners = std::mem::take(&mut self.corners);
-        let Some(site) = Site::of(self.land, lot, edge, street, self.config.setback, corners) else { return };
+        let site = Site::of(self.land, lot, edge, street, self.config.setback, corners)?;
         let mut blocked = std::mem::take(&mut self.blocked);
         let gaps = (self.config.gap, self.most_spare() * 0.5);
         let depths = (LEAST, self.deepest(&site).min(DEEPEST));
         blocked.look(&site, &self.plans.grounds[self.first..], depths, gaps, |depth| self.room(&site, depth));
         self.blocked = blocked;
-        self.fill(&site, edge == 0, rng);
-        self.corners = site.local;
+        Some(site)
     }
 
     /// Fills the room along the street of a site from its beginning to its end.
@@ -155,13 +161,7 @@ impl<'a> Planner<'a> {
 
     /// A kind that fits between two stations of the front, and where: of some drawn by their weights the one that
     /// leaves least of the front unused.
-    fn choose(
-        &self,
-        site: &Site<'_>,
-        room: (f64, f64),
-        is_first: bool,
-        rng: &mut StreamRng,
-    ) -> Choice {
+    fn choose(&self, site: &Site<'_>, room: (f64, f64), is_first: bool, rng: &mut StreamRng) -> Choice {
         let mut best: Option<(f64, &'static Archetype, Spot)> = None;
         if is_first {
             for _ in 0..TRIES {
@@ -297,3 +297,6 @@ const fn deepest_kind() -> f64 {
     }
     deepest
 }
+
+#[cfg(test)]
+mod tests;

@@ -152,3 +152,28 @@ pub(super) fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
     }
     (low <= high).then_some((low, high))
 }
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::geometry::direction;
+
+    use super::*;
+
+    #[test]
+    fn a_round_outline_is_as_wide_as_its_circle() {
+        for corners in [3, 4, 31, 32, 33, 64, 65, 200] {
+            let step = std::f64::consts::TAU / f64::from(corners);
+            let outline: Vec<Point2> = (0..=corners)
+                .map(|corner| Point2::origin() + direction(0.1 + step * f64::from(corner)) * 10.0)
+                .collect();
+            let inner = 10.0 * simworld_core::ops::cos(step * 0.5);
+            for y in [-4.9, 0.0, 3.0] {
+                let Some((low, high)) = span(&outline, y) else { panic!("{corners} corners at {y}") };
+                let half = |radius: f64| (radius * radius - y * y).max(0.0).sqrt();
+                let widths = half(inner) * 2.0 - 1e-9..=half(10.0) * 2.0 + 1e-9;
+                assert!(widths.contains(&(high - low)), "{corners} corners at {y}: {low} to {high}");
+            }
+            assert!(span(&outline, 10.1).is_none());
+        }
+    }
+}

@@ -43,7 +43,11 @@ impl Weights {
 
     /// The kinds that may fill gaps on a lot, beginning with one of a number or the next such; some of them may still be of no
     /// weight there.
-    pub(super) fn fillers(&self, lot: &Lot, first: usize) -> impl Iterator<Item = &'static Archetype> + use<> {
+    pub(super) fn fillers(
+        &self,
+        lot: &Lot,
+        first: usize,
+    ) -> impl Iterator<Item = &'static Archetype> + use<> {
         let all = self.fillers[lot.zone as usize];
         let behind = all & (u32::MAX << first);
         // Those before the first come after the last.

@@ -91,8 +91,9 @@ impl Occupancy {
 
     /// Whether a convex outline shares no interior point with what is taken.
     pub fn is_free(&self, outline: &[Point2]) -> bool {
-        bounds(outline)
-            .is_none_or(|bounds| self.is_free_within(&Outline::of(outline), bounds, Cells::of(bounds).as_ref()))
+        bounds(outline).is_none_or(|bounds| {
+            self.is_free_within(&Outline::of(outline), bounds, Cells::of(bounds).as_ref())
+        })
     }
 
     #[inline]
