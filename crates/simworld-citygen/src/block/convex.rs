@@ -132,7 +132,7 @@ mod tests {
     fn ring(points: &[(f64, f64)]) -> Ring {
         let corners: Vec<Point2> = points.iter().map(|(x, y)| Point2::new(*x, *y)).collect();
         let borders = vec![Border::CORNER; corners.len()];
-        Ring { corners, borders }
+        Ring { corners: corners.into(), borders: borders.into() }
     }
 
     #[test]

@@ -132,7 +132,7 @@ impl Reach {
 /// parallel or meet farther than `reach` from their ends.
 fn join(lines: &[Line], reach: impl Fn(usize) -> Reach) -> Joined {
     let count = lines.len();
-    let mut ring = Ring::default();
+    let mut ring = Ring::with_capacity(count);
     let mut ends = vec![(Point2::origin(), Point2::origin()); count];
     for index in 0..count {
         let (line, next) = (&lines[index], &lines[(index + 1) % count]);

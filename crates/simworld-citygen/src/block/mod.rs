@@ -76,7 +76,11 @@ impl Block {
         ring.begin_at_least();
         let area = ring.area();
         let is_closed = area > 0.0 && ring.is_simple();
-        Some(Self { outline: ring.corners, borders: ring.borders, area: is_closed.then_some(area) })
+        Some(Self {
+            outline: ring.corners.into_vec(),
+            borders: ring.borders.into_vec(),
+            area: is_closed.then_some(area),
+        })
     }
 
     /// A closed block from its corners, counter-clockwise, and what lies beyond each edge.
@@ -87,11 +91,11 @@ impl Block {
         if outline.len() < 3 || outline.len() != borders.len() {
             return None;
         }
-        let ring = Ring { corners: outline, borders };
+        let ring = Ring { corners: outline.into(), borders: borders.into() };
         let area = ring.area();
         (area > 0.0 && ring.is_simple()).then_some(Self {
-            outline: ring.corners,
-            borders: ring.borders,
+            outline: ring.corners.into_vec(),
+            borders: ring.borders.into_vec(),
             area: Some(area),
         })
     }
@@ -104,6 +108,6 @@ impl Block {
     }
 
     pub(crate) fn ring(&self) -> Ring {
-        Ring { corners: self.outline.clone(), borders: self.borders.clone() }
+        Ring { corners: self.outline[..].into(), borders: self.borders[..].into() }
     }
 }

@@ -1,14 +1,18 @@
 //! A polygon whose edges know what they border, and its cuts by straight lines.
 
 use simworld_core::geometry::{Point2, Vector2};
+use smallvec::SmallVec;
 
 use super::Border;
+
+/// What a polygon has for each corner. Nearly all have few, and are cut and thrown away by the thousand: those stand in place.
+type PerCorner<T> = SmallVec<[T; 8]>;
 
 /// A polygon; the i-th border belongs to the edge from corner i to the next.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ring {
-    pub(crate) corners: Vec<Point2>,
-    pub(crate) borders: Vec<Border>,
+    pub(crate) corners: PerCorner<Point2>,
+    pub(crate) borders: PerCorner<Border>,
 }
 
 /// Polygons of more corners are not tested for simplicity, which takes the square of their number; they are ragged
@@ -16,6 +20,10 @@ pub(crate) struct Ring {
 const MOST_TESTED: usize = 600;
 
 impl Ring {
+    pub(crate) fn with_capacity(corners: usize) -> Self {
+        Self { corners: PerCorner::with_capacity(corners), borders: PerCorner::with_capacity(corners) }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.corners.len()
     }
@@ -148,7 +156,7 @@ mod tests {
         let street = |road| {
             Border::street(simworld_core::id::RoadId::from_index(road), simworld_core::net::Side::Left)
         };
-        Ring { corners: corners.to_vec(), borders: (0..4).map(street).collect() }
+        Ring { corners: corners.into_iter().collect(), borders: (0..4).map(street).collect() }
     }
 
     #[test]
@@ -157,7 +165,7 @@ mod tests {
         let ring = square();
         assert_eq!(ring.split(Point2::new(4.0, 0.0), Vector2::x(), &mut west, &mut east), Split::Both);
         assert_eq!((west.area(), east.area()), (40.0, 60.0));
-        assert_eq!(west.borders, [ring.borders[0], Border::LAND, ring.borders[2], ring.borders[3]]);
+        assert_eq!(west.borders[..], [ring.borders[0], Border::LAND, ring.borders[2], ring.borders[3]]);
         let streets = |ring: &Ring| ring.borders.iter().filter(|border| border.is_street()).count();
         assert_eq!((streets(&west), streets(&east)), (3, 3));
         assert!(east.borders.contains(&ring.borders[1]) && !east.borders.contains(&ring.borders[3]));

@@ -3,12 +3,12 @@
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
-use simworld_core::scene::Place;
 use simworld_core::seed::{Stream, StreamRng};
 
+use super::blocked::Blocked;
 use super::site::{Site, Spot};
 use super::weights::Weights;
-use super::{ARCHETYPES, Archetype, Building, Footprint};
+use super::{ARCHETYPES, Archetype, Building, Footprint, access};
 use crate::BuildingConfig;
 use crate::lot::{Land, Lot};
 use crate::occupancy::overlap;
@@ -25,6 +25,8 @@ const CLEARANCE: f64 = 1e-3;
 const REAR: f64 = 1.0;
 /// The narrowest and the shallowest building, m.
 const LEAST: f64 = 5.0;
+/// The deepest building, m.
+const DEEPEST: f64 = deepest_kind();
 /// A façade farther from a street than its setback and this does not count as standing at it, m.
 const AT_STREET: f64 = 4.0;
 
@@ -33,6 +35,15 @@ const AT_STREET: f64 = 4.0;
 pub(super) struct Plans {
     pub(super) buildings: Vec<Building>,
     pub(super) grounds: Vec<[Point2; 4]>,
+}
+
+/// What is to stand along a street.
+enum Choice {
+    Nothing,
+    /// A kind, and where it fits.
+    Spot(&'static Archetype, Spot),
+    /// Something that would meet what was planned on the lot before.
+    Blocked,
 }
 
 /// Plans buildings lot by lot.
@@ -47,6 +58,8 @@ pub(super) struct Planner<'a> {
     plans: Plans,
     /// The first plan on the lot at hand.
     first: usize,
+    /// Where along the street at hand something stands already.
+    blocked: Blocked,
 }
 
 impl<'a> Planner<'a> {
@@ -66,6 +79,7 @@ impl<'a> Planner<'a> {
             corners: Vec::new(),
             plans: Plans::default(),
             first: 0,
+            blocked: Blocked::default(),
         }
     }
 
@@ -77,6 +91,7 @@ impl<'a> Planner<'a> {
             self.first = self.plans.grounds.len();
             self.plan(lot);
         }
+        access::lay(self.network, &mut self.plans.buildings);
         self.plans
     }
 
@@ -99,22 +114,34 @@ impl<'a> Planner<'a> {
 
     /// Plans what stands along one street of a lot.
     fn line(&mut self, lot: &Lot, edge: usize, street: (RoadId, Side), rng: &mut StreamRng) {
-        let corners = std::mem::take(&mut self.corners);
-        let Some(site) = Site::of(self.land, lot, edge, street, self.config.setback, corners) else { return };
+        let Some(site) = self.look(lot, edge, street) else { return };
         self.fill(&site, edge == 0, rng);
         self.corners = site.local;
+    }
+
+    /// Looks at a lot from one of its streets, and at what stands there; `None` if that has no length.
+    fn look<'l>(&mut self, lot: &'l Lot, edge: usize, street: (RoadId, Side)) -> Option<Site<'l>> {
+        let corners = std::mem::take(&mut self.corners);
+        let site = Site::of(self.land, lot, edge, street, self.config.setback, corners)?;
+        let mut blocked = std::mem::take(&mut self.blocked);
+        let gaps = (self.config.gap, self.most_spare() * 0.5);
+        let depths = (LEAST, self.deepest(&site).min(DEEPEST));
+        blocked.look(&site, &self.plans.grounds[self.first..], depths, gaps, |depth| self.room(&site, depth));
+        self.blocked = blocked;
+        Some(site)
     }
 
     /// Fills the room along the street of a site from its beginning to its end.
     fn fill(&mut self, site: &Site<'_>, mut is_first: bool, rng: &mut StreamRng) {
         let Some((mut start, end)) = self.room(site, LEAST) else { return };
         while end - start >= LEAST {
-            let Some((kind, spot)) = self.choose(site, (start, end), is_first, rng) else { break };
-            if self.is_free(site, spot) {
-                self.raise(site, kind, spot, rng);
-                start = spot.x + spot.width + self.config.gap;
-            } else {
-                start += STEP;
+            match self.choose(site, (start, end), is_first, rng) {
+                Choice::Nothing => break,
+                Choice::Spot(kind, spot) if self.is_free(site, spot) => {
+                    self.raise(site, kind, spot, rng);
+                    start = spot.x + spot.width + self.config.gap;
+                }
+                Choice::Spot(..) | Choice::Blocked => start += STEP,
             }
             is_first = false;
         }
@@ -122,21 +149,19 @@ impl<'a> Planner<'a> {
 
     /// Whether a spot keeps its distance from what was planned on the lot so far.
     fn is_free(&self, site: &Site<'_>, spot: Spot) -> bool {
+        let planned = &self.plans.grounds[self.first..];
+        if planned.is_empty() {
+            return true;
+        }
         let gap = self.config.gap;
         let wide = Spot { x: spot.x - gap, width: spot.width + 2.0 * gap, depth: spot.depth + gap };
         let corners = site.corners(wide);
-        self.plans.grounds[self.first..].iter().all(|ground| !overlap(ground, &corners))
+        planned.iter().all(|ground| !overlap(ground, &corners))
     }
 
     /// A kind that fits between two stations of the front, and where: of some drawn by their weights the one that
     /// leaves least of the front unused.
-    fn choose(
-        &self,
-        site: &Site<'_>,
-        room: (f64, f64),
-        is_first: bool,
-        rng: &mut StreamRng,
-    ) -> Option<(&'static Archetype, Spot)> {
+    fn choose(&self, site: &Site<'_>, room: (f64, f64), is_first: bool, rng: &mut StreamRng) -> Choice {
         let mut best: Option<(f64, &'static Archetype, Spot)> = None;
         if is_first {
             for _ in 0..TRIES {
@@ -152,18 +177,31 @@ impl<'a> Planner<'a> {
             }
         }
         if let Some((_, kind, spot)) = best {
-            return Some((kind, spot));
+            return Choice::Spot(kind, spot);
         }
-        // Greedy filling: each kind gets its chance to be first, so that no filler dominates.
-        let first = rng.below(ARCHETYPES.len());
-        (0..ARCHETYPES.len()).find_map(|step| {
-            let at = first + step;
-            let kind = &ARCHETYPES[if at < ARCHETYPES.len() { at } else { at - ARCHETYPES.len() }];
-            let is_filler = kind.width.0 <= room.1 - room.0
-                && is_filler(kind.place)
-                && kind.weight(site.lot.zone, site.lot.density) > 0.0;
-            is_filler.then(|| self.fit(site, kind, room, rng)).flatten().map(|spot| (kind, spot))
-        })
+        self.filler(site, room, rng)
+    }
+
+    /// Greedy filling: each kind gets its chance to be first, so that no filler dominates.
+    fn filler(&self, site: &Site<'_>, room: (f64, f64), rng: &mut StreamRng) -> Choice {
+        let deepest = self.deepest(site);
+        for kind in self.weights.fillers(site.lot, rng.below(ARCHETYPES.len())) {
+            if kind.width.0 > room.1 - room.0
+                || kind.depth.0 > deepest
+                || kind.weight(site.lot.zone, site.lot.density) <= 0.0
+            {
+                continue;
+            }
+            if self.blocked.is_sure(room, kind.width.0) {
+                // It would fit at the first depth that is drawn, and stand where something stands.
+                rng.bits();
+                return Choice::Blocked;
+            }
+            if let Some(spot) = self.fit(site, kind, room, rng) {
+                return Choice::Spot(kind, spot);
+            }
+        }
+        Choice::Nothing
     }
 
     /// How much of the room between two stations a spot leaves to nobody, m.
@@ -181,7 +219,7 @@ impl<'a> Planner<'a> {
         (start, end): (f64, f64),
         rng: &mut StreamRng,
     ) -> Option<Spot> {
-        let deepest = (site.deep - self.config.setback - REAR).min(kind.depth.1);
+        let deepest = self.deepest(site).min(kind.depth.1);
         if end - start < kind.width.0 || deepest < kind.depth.0 {
             return None;
         }
@@ -193,11 +231,21 @@ impl<'a> Planner<'a> {
                 let width = room.min(kind.width.1);
                 // What is too little for a neighbour is left on both sides.
                 let spare = room - width;
-                let x = if spare < LEAST + self.config.gap { low + spare * 0.5 } else { low };
+                let x = if spare < self.most_spare() { low + spare * 0.5 } else { low };
                 return Some(Spot { x, width, depth });
             }
         }
         None
+    }
+
+    /// How deep a building may be, m.
+    fn deepest(&self, site: &Site<'_>) -> f64 {
+        site.deep - self.config.setback - REAR
+    }
+
+    /// Room that is too little for a neighbour, m.
+    fn most_spare(&self) -> f64 {
+        LEAST + self.config.gap
     }
 
     /// The room along a street for that depth, see [`Site::room`].
@@ -230,7 +278,8 @@ impl<'a> Planner<'a> {
             storeys,
             roof,
             zone: lot.zone,
-            access: site.access(self.network, door),
+            // Where one stands before the door is looked up for all of them together.
+            access: door,
             road: site.road,
             side: site.side,
             frontage,
@@ -239,10 +288,15 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// Whether a gap may be filled with such a place; large institutions are sampled, never fillers.
-const fn is_filler(place: Place) -> bool {
-    matches!(
-        place,
-        Place::Home | Place::Store | Place::Restaurant | Place::Office | Place::RestArea | Place::Factory
-    )
+/// The greatest depth of all kinds, m.
+const fn deepest_kind() -> f64 {
+    let (mut deepest, mut index) = (LEAST, 0);
+    while index < ARCHETYPES.len() {
+        deepest = deepest.max(ARCHETYPES[index].depth.1);
+        index += 1;
+    }
+    deepest
 }
+
+#[cfg(test)]
+mod tests;

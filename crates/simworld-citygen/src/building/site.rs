@@ -5,7 +5,7 @@
 
 use simworld_core::geometry::{Point2, Vector2, heading};
 use simworld_core::id::RoadId;
-use simworld_core::net::{RoadNetwork, Side};
+use simworld_core::net::Side;
 
 use crate::lot::{Land, Lot};
 
@@ -18,7 +18,7 @@ pub(super) struct Site<'a> {
     pub(super) facing: f64,
     /// How far the lot reaches inwards, m.
     pub(super) deep: f64,
-    /// The corners of the lot in its frame.
+    /// The corners of the lot in its frame, the last one first as well.
     pub(super) local: Vec<Point2>,
     /// Distance from the street to the façades, m, and from where to where the lot reaches there.
     setback: f64,
@@ -51,13 +51,32 @@ impl<'a> Site<'a> {
         let along = (outline[(edge + 1) % outline.len()] - origin).try_normalize(1e-9)?;
         let inwards = Vector2::new(-along.y, along.x);
         local.clear();
-        local.extend(outline.iter().map(|corner| {
-            let to = corner - origin;
-            Point2::new(to.dot(&along), to.dot(&inwards))
-        }));
-        let deep = local.iter().map(|corner| corner.y).fold(0.0, f64::max);
-        let (facing, front) = (heading(&-inwards), span(&local, setback));
-        Some(Self { lot, road, side, facing, deep, local, setback, front, origin, along, inwards })
+        let mut site = Self {
+            lot,
+            road,
+            side,
+            facing: heading(&-inwards),
+            deep: 0.0,
+            local,
+            setback,
+            front: None,
+            origin,
+            along,
+            inwards,
+        };
+        for corner in outline.last().into_iter().chain(outline) {
+            let corner = site.seen(*corner);
+            site.local.push(corner);
+        }
+        site.deep = site.local.iter().map(|corner| corner.y).fold(0.0, f64::max);
+        site.front = span(&site.local, setback);
+        Some(site)
+    }
+
+    /// A point of the world in the lot frame.
+    pub(super) fn seen(&self, point: Point2) -> Point2 {
+        let to = point - self.origin;
+        Point2::new(to.dot(&self.along), to.dot(&self.inwards))
     }
 
     /// The point of the world at a point of the lot frame.
@@ -72,33 +91,17 @@ impl<'a> Site<'a> {
         [self.at(left, near), self.at(right, near), self.at(right, far), self.at(left, far)]
     }
 
+    /// From where to where a building of that depth reaches inwards, m.
+    pub(super) fn depths(&self, depth: f64) -> (f64, f64) {
+        (self.setback, self.setback + depth)
+    }
+
     /// The stations between which a rectangle from the setback to that depth beyond it lies within the lot, with a
     /// margin to either side.
     pub(super) fn room(&self, depth: f64, margin: f64) -> Option<(f64, f64)> {
         let (front, rear) = (self.front?, span(&self.local, self.setback + depth)?);
         let (low, high) = (front.0.max(rear.0) + margin, front.1.min(rear.1) - margin);
         (low < high).then_some((low, high))
-    }
-
-    /// The place on the walkways before a door: the middle of the sidewalk or, where that ends before the corner, of
-    /// the walkway round it.
-    pub(super) fn access(&self, network: &RoadNetwork, door: Point2) -> Point2 {
-        let Some(walk) = network.sidewalk(self.road, self.side) else { return door };
-        let mut best = nearest(&walk.path, door);
-        if (best - door).norm() < walk.width {
-            return best;
-        }
-        let road = &network.roads[self.road.index()];
-        for intersection in [road.from, road.to] {
-            for corner in network.intersections[intersection.index()].corners.iter().filter(|c| c.len() >= 2)
-            {
-                let at = nearest(corner, door);
-                if (at - door).norm_squared() < (best - door).norm_squared() {
-                    best = at;
-                }
-            }
-        }
-        best
     }
 
     /// Length of the streets of the lot along which a building stands no farther away than that, m: at its front and,
@@ -110,54 +113,67 @@ impl<'a> Site<'a> {
             let start = outline[index];
             let edge = outline[(index + 1) % outline.len()] - start;
             let length = edge.norm();
+            // Of all corners the least and the greatest, times the length: what is least stays least when it is divided.
             let (mut near, mut low, mut high) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
             for corner in corners {
                 let to = corner - start;
-                near = near.min(edge.perp(&to) / length);
-                let station = to.dot(&edge) / length;
-                (low, high) = (low.min(station), high.max(station));
+                let (inwards, station) = (edge.perp(&to), to.dot(&edge));
+                (near, low, high) = (near.min(inwards), low.min(station), high.max(station));
             }
-            if near <= farthest {
-                sum += (high.min(length) - low.max(0.0)).max(0.0);
+            if near / length <= farthest {
+                sum += ((high / length).min(length) - (low / length).max(0.0)).max(0.0);
             }
         }
         sum
     }
 }
 
-/// From where to where an outline reaches at a height.
-fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
+/// Corners of an outline whose heights are compared together.
+const TOGETHER: usize = 32;
+
+/// From where to where an outline reaches at a height; its last corner stands first as well.
+pub(super) fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut a = *outline.last()?;
-    for b in outline {
-        // Reckoned for every side and kept of those that cross: which they are differs from lot to lot.
-        let crosses = (a.y > y) != (b.y > y);
-        let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-        low = low.min(if crosses { x } else { f64::INFINITY });
-        high = high.max(if crosses { x } else { f64::NEG_INFINITY });
-        a = *b;
+    for first in (1..outline.len()).step_by(TOGETHER) {
+        let part = &outline[first - 1..outline.len().min(first + TOGETHER)];
+        let mut above = 0_u64;
+        for (place, corner) in part.iter().enumerate() {
+            above |= u64::from(corner.y > y) << place;
+        }
+        // The sides that cross: mostly two, and which they are differs from lot to lot.
+        let mut crossing = (above ^ (above >> 1)) & ((1 << (part.len() - 1)) - 1);
+        while crossing != 0 {
+            let place = crossing.trailing_zeros() as usize;
+            let (a, b) = (part[place], part[place + 1]);
+            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+            (low, high) = (low.min(x), high.max(x));
+            crossing &= crossing - 1;
+        }
     }
     (low <= high).then_some((low, high))
 }
 
-/// The point of a path nearest to another.
-fn nearest(path: &[Point2], point: Point2) -> Point2 {
-    let mut best = (f64::INFINITY, point);
-    for pair in path.windows(2) {
-        let (step, to) = (pair[1] - pair[0], point - pair[0]);
-        let (squared, along) = (step.norm_squared(), to.dot(&step));
-        // Divided only where it is nearer; a hair of slack, so that rounding decides nothing.
-        let beside = along > 0.0 && along < squared;
-        let aside = to.perp(&step);
-        if beside && aside * aside > best.0 * squared * (1.0 + 1e-9) {
-            continue;
-        }
-        let share = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
-        let at = pair[0] + step * share;
-        let distance = (point - at).norm_squared();
-        if distance < best.0 {
-            best = (distance, at);
+#[cfg(test)]
+mod tests {
+    use simworld_core::geometry::direction;
+
+    use super::*;
+
+    #[test]
+    fn a_round_outline_is_as_wide_as_its_circle() {
+        for corners in [3, 4, 31, 32, 33, 64, 65, 200] {
+            let step = std::f64::consts::TAU / f64::from(corners);
+            let outline: Vec<Point2> = (0..=corners)
+                .map(|corner| Point2::origin() + direction(0.1 + step * f64::from(corner)) * 10.0)
+                .collect();
+            let inner = 10.0 * simworld_core::ops::cos(step * 0.5);
+            for y in [-4.9, 0.0, 3.0] {
+                let Some((low, high)) = span(&outline, y) else { panic!("{corners} corners at {y}") };
+                let half = |radius: f64| (radius * radius - y * y).max(0.0).sqrt();
+                let widths = half(inner) * 2.0 - 1e-9..=half(10.0) * 2.0 + 1e-9;
+                assert!(widths.contains(&(high - low)), "{corners} corners at {y}: {low} to {high}");
+            }
+            assert!(span(&outline, 10.1).is_none());
         }
     }
-    best.1
 }

@@ -1,5 +1,6 @@
 //! How often each kind of building is tried, ready to be drawn from.
 
+use simworld_core::scene::Place;
 use simworld_core::seed::StreamRng;
 
 use super::{ARCHETYPES, Archetype};
@@ -9,8 +10,13 @@ use crate::zoning::Zone;
 /// Steps of the density for which weights are known beforehand.
 const LEVELS: usize = 16;
 
-/// Cumulative weights of the kinds, by zone and level of density.
-pub(super) struct Weights(Vec<[f64; ARCHETYPES.len()]>);
+/// What kinds are drawn by.
+pub(super) struct Weights {
+    /// Cumulative weights of the kinds, by zone and level of density.
+    sums: Vec<[f64; ARCHETYPES.len()]>,
+    /// The kinds that fill gaps in each zone, a bit each.
+    fillers: Vec<u32>,
+}
 
 impl Weights {
     pub(super) fn new() -> Self {
@@ -25,14 +31,49 @@ impl Weights {
                 }));
             }
         }
-        Self(rows)
+        let is_filler = |zone: Zone, kind: &Archetype| {
+            is_filler(kind.place) && (kind.weight(zone, 0.0) > 0.0 || kind.weight(zone, 1.0) > 0.0)
+        };
+        let fillers = Zone::ALL.iter().map(|zone| {
+            let kinds = ARCHETYPES.iter().enumerate().filter(|(_, kind)| is_filler(*zone, kind));
+            kinds.fold(0, |all, (index, _)| all | 1 << index)
+        });
+        Self { sums: rows, fillers: fillers.collect() }
+    }
+
+    /// The kinds that may fill gaps on a lot, beginning with one of a number or the next such; some of them may still be of no
+    /// weight there.
+    pub(super) fn fillers(
+        &self,
+        lot: &Lot,
+        first: usize,
+    ) -> impl Iterator<Item = &'static Archetype> + use<> {
+        let all = self.fillers[lot.zone as usize];
+        let behind = all & (u32::MAX << first);
+        // Those before the first come after the last.
+        let mut left = u64::from(behind) | u64::from(all ^ behind) << u32::BITS;
+        std::iter::from_fn(move || {
+            let bit = left.trailing_zeros();
+            left &= left.wrapping_sub(1);
+            ARCHETYPES.get((bit % u32::BITS) as usize).filter(|_| bit < u64::BITS)
+        })
     }
 
     /// A kind for a lot.
     pub(super) fn draw(&self, lot: &Lot, rng: &mut StreamRng) -> &'static Archetype {
         let level = ((lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
-        let sums = &self.0[lot.zone as usize * LEVELS + level];
+        let sums = &self.sums[lot.zone as usize * LEVELS + level];
         let drawn = rng.unit() * sums[ARCHETYPES.len() - 1];
-        &ARCHETYPES[sums.partition_point(|sum| *sum <= drawn).min(ARCHETYPES.len() - 1)]
+        // Sums rise, so those that are passed are counted, all at a time.
+        let passed = sums.iter().map(|sum| usize::from(*sum <= drawn)).sum::<usize>();
+        &ARCHETYPES[passed.min(ARCHETYPES.len() - 1)]
     }
+}
+
+/// Whether a gap may be filled with such a place; large institutions are sampled, never fillers.
+const fn is_filler(place: Place) -> bool {
+    matches!(
+        place,
+        Place::Home | Place::Store | Place::Restaurant | Place::Office | Place::RestArea | Place::Factory
+    )
 }

@@ -72,8 +72,8 @@ fn row(ring: &Ring, index: usize, street: &Street, depth: f64, depths: &[f64]) -
     let (start, end) = (street.start, ring.next(index));
     let deep = street.inwards() * depth;
     let mut row = Ring {
-        corners: vec![start, end, end + deep, start + deep],
-        borders: vec![street.border, Border::LAND, Border::LAND, Border::LAND],
+        corners: [start, end, end + deep, start + deep].into_iter().collect(),
+        borders: [street.border, Border::LAND, Border::LAND, Border::LAND].into_iter().collect(),
     };
     let count = ring.len();
     let (mut kept, mut cut) = (Ring::default(), Ring::default());

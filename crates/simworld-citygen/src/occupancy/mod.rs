@@ -11,7 +11,7 @@ mod slots;
 
 use outlines::{Outline, Outlines};
 use simworld_core::geometry::{Obb, Point2, Vector2};
-use slots::{Bounds, Slots};
+use slots::{Bounds, Cells, Slots};
 
 /// Convex outlines that must not overlap, indexed for exact tests. Touching edges do not overlap.
 ///
@@ -41,12 +41,10 @@ impl Occupancy {
         Self { outlines: Outlines::with_capacity(outlines), slots: Slots::with_capacity(outlines) }
     }
 
-    /// Makes room for so many more outlines at once.
+    /// Makes room for so many more outlines at once. What more of them do to the slots is seen when they come: many lie in
+    /// cells that are in use already.
     pub fn reserve(&mut self, outlines: usize) {
         self.outlines.reserve(outlines);
-        if self.slots.is_small_for(self.len() + outlines) {
-            self.refile(self.len() + outlines);
-        }
     }
 
     /// The number of outlines.
@@ -62,13 +60,14 @@ impl Occupancy {
     /// Takes a convex outline, its corners in order, either way round.
     pub fn add(&mut self, outline: &[Point2]) {
         if let Some(bounds) = bounds(outline) {
-            self.put(&Outline::of(outline), bounds);
+            self.put(&Outline::of(outline), Cells::of(bounds).as_ref());
         }
     }
 
-    fn put(&mut self, outline: &Outline<'_>, bounds: Bounds) {
+    /// Takes an outline that touches some cells, or too many.
+    fn put(&mut self, outline: &Outline<'_>, cells: Option<&Cells>) {
         let number = self.outlines.push(outline);
-        self.slots.file(number, bounds);
+        self.slots.file(number, cells);
         if self.slots.is_full() {
             // Four times the slots.
             self.refile(4 * self.slots.len());
@@ -80,7 +79,7 @@ impl Occupancy {
         self.slots = Slots::with_capacity(outlines);
         for number in self.outlines.numbers() {
             if let Some(bounds) = bounds(self.outlines.get(number).corners()) {
-                self.slots.file(number, bounds);
+                self.slots.file(number, Cells::of(bounds).as_ref());
             }
         }
     }
@@ -92,10 +91,13 @@ impl Occupancy {
 
     /// Whether a convex outline shares no interior point with what is taken.
     pub fn is_free(&self, outline: &[Point2]) -> bool {
-        bounds(outline).is_none_or(|bounds| self.is_free_within(&Outline::of(outline), bounds))
+        bounds(outline).is_none_or(|bounds| {
+            self.is_free_within(&Outline::of(outline), bounds, Cells::of(bounds).as_ref())
+        })
     }
 
-    fn is_free_within(&self, outline: &Outline<'_>, bounds: Bounds) -> bool {
+    #[inline]
+    fn is_free_within(&self, outline: &Outline<'_>, bounds: Bounds, cells: Option<&Cells>) -> bool {
         let collides = |number| match (self.outlines.get(number), outline) {
             (Outline::Rectangle(taken), Outline::Rectangle(outline)) => {
                 are_near(taken, bounds) && rectangles_overlap(taken, outline)
@@ -105,7 +107,7 @@ impl Occupancy {
                 are_near(taken, bounds) && overlap(taken, outline.corners())
             }
         };
-        !self.slots.any_near(bounds, self.outlines.numbers(), collides)
+        !self.slots.any_near(cells, self.outlines.numbers(), collides)
     }
 
     /// Whether the footprint of an upright box shares no interior point with what is taken.
@@ -116,10 +118,10 @@ impl Occupancy {
     /// Takes an outline if it is free; says whether it was.
     pub fn take(&mut self, outline: &[Point2]) -> bool {
         let Some(bounds) = bounds(outline) else { return true };
-        let outline = Outline::of(outline);
-        let free = self.is_free_within(&outline, bounds);
+        let (outline, cells) = (Outline::of(outline), Cells::of(bounds));
+        let free = self.is_free_within(&outline, bounds, cells.as_ref());
         if free {
-            self.put(&outline, bounds);
+            self.put(&outline, cells.as_ref());
         }
         free
     }

@@ -63,7 +63,8 @@ impl Block {
     }
 
     fn put(&mut self, item: u32, window: Window) {
-        let place = self.items.iter().take_while(|item| **item != NONE).count();
+        // Counted without a branch: how many there are, nothing foretells.
+        let place = self.items.iter().map(|item| usize::from(*item != NONE)).sum::<usize>().min(ROOM - 1);
         self.items[place] = item;
         for axis in 0..2 {
             (self.low[axis][place], self.high[axis][place]) = (window.low[axis], window.high[axis]);
@@ -71,8 +72,9 @@ impl Block {
     }
 
     /// Which of its outlines are not apart from a box, and were not seen in a cell before: where both go on from there,
-    /// they were.
-    fn touching(&self, window: Window) -> [bool; LANES] {
+    /// they were. A byte each, the first one the lowest.
+    #[inline]
+    fn touching(&self, window: Window) -> u64 {
         let mut touches = [true; LANES];
         for axis in 0..2 {
             let (low, high) = (window.low[axis], window.high[axis]);
@@ -83,7 +85,7 @@ impl Block {
                 *touches &= own | low != BEFORE;
             }
         }
-        touches
+        u64::from_le_bytes(touches.map(u8::from))
     }
 }
 
@@ -108,11 +110,6 @@ impl Slots {
         Self { heads, blocks, large: Vec::new(), used: 0, bits }
     }
 
-    /// Whether it has too few slots for so many outlines.
-    pub(super) fn is_small_for(&self, outlines: usize) -> bool {
-        bits_for(outlines) > self.bits
-    }
-
     /// The number of slots.
     pub(super) fn len(&self) -> usize {
         self.heads.len()
@@ -124,9 +121,9 @@ impl Slots {
         2 * self.used > self.heads.len() && self.bits < MOST_BITS
     }
 
-    /// Files an outline.
-    pub(super) fn file(&mut self, item: u32, bounds: Bounds) {
-        let Some(cells) = Cells::of(bounds) else {
+    /// Files an outline in the cells that it touches, or with those that touch too many.
+    pub(super) fn file(&mut self, item: u32, cells: Option<&Cells>) {
+        let Some(cells) = cells else {
             self.large.push(item);
             return;
         };
@@ -143,26 +140,28 @@ impl Slots {
         });
     }
 
-    /// Whether a test holds of any outline that may touch a box, of all those given.
+    /// Whether a test holds of any outline that may touch a box in some cells, of all those given if they are too many.
     #[inline]
     pub(super) fn any_near(
         &self,
-        bounds: Bounds,
+        cells: Option<&Cells>,
         mut all: impl Iterator<Item = u32>,
         test: impl Fn(u32) -> bool,
     ) -> bool {
         if self.large.iter().any(|item| test(*item)) {
             return true;
         }
-        let Some(cells) = Cells::of(bounds) else { return all.any(test) };
+        let Some(cells) = cells else { return all.any(test) };
         cells.any(self.bits, |slot, window| {
             let mut next = self.heads[slot];
             while let Some(block) = self.blocks.get(next as usize) {
-                let touching = block.touching(window);
-                if touching != [false; LANES]
-                    && block.items.iter().zip(touching).any(|(item, touches)| touches && test(*item))
-                {
-                    return true;
+                let mut touching = block.touching(window);
+                while touching != 0 {
+                    let place = touching.trailing_zeros() as usize / 8;
+                    if block.items.get(place).is_some_and(|item| test(*item)) {
+                        return true;
+                    }
+                    touching &= touching - 1;
                 }
                 next = block.next;
             }
@@ -199,7 +198,7 @@ impl Place {
 }
 
 /// The cells that a rectangle touches: the places where it begins and ends, by axis.
-struct Cells {
+pub(super) struct Cells {
     columns: (Place, Place),
     rows: (Place, Place),
 }
@@ -207,7 +206,7 @@ struct Cells {
 impl Cells {
     /// `None` if they are too many, or nowhere.
     #[inline]
-    fn of((low, high): Bounds) -> Option<Self> {
+    pub(super) fn of((low, high): Bounds) -> Option<Self> {
         let (width, height) = (high.x - low.x, high.y - low.y);
         let is_small = width * height <= MOST_CELLS * CELL * CELL && width.max(height) <= MOST_CELLS * CELL;
         is_small.then(|| Self {

@@ -184,10 +184,14 @@ fn cells(lines: &[Vec<Point2>]) -> Cells {
     for (index, line) in lines.iter().enumerate() {
         for pair in line.windows(2) {
             let steps = ((pair[1] - pair[0]).norm() / (CELL * 0.5)).ceil().max(1.0);
-            cells.extend((0..=steps as u64).map(|step| {
+            for step in 0..=steps as u64 {
                 let at = pair[0] + (pair[1] - pair[0]) * (step as f64 / steps);
-                (cell(at), index)
-            }));
+                let entry = (cell(at), index);
+                // A cell holds many points one after the other, of bends above all.
+                if cells.last() != Some(&entry) {
+                    cells.push(entry);
+                }
+            }
         }
     }
     cells.sort_unstable();

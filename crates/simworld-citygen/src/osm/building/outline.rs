@@ -106,7 +106,7 @@ fn cleaned(points: &[Point2]) -> Result<(Vec<Point2>, f64), &'static str> {
             }
         }
         let is_done = kept.len() == count;
-        ring.corners = kept;
+        ring.corners = kept.into();
         if is_done || ring.len() < 3 {
             break;
         }
@@ -122,7 +122,7 @@ fn cleaned(points: &[Point2]) -> Result<(Vec<Point2>, f64), &'static str> {
     } else if !ring.is_simple() {
         Err("has an outline that crosses itself")
     } else {
-        Ok((ring.corners, area))
+        Ok((ring.corners.into_vec(), area))
     }
 }
 

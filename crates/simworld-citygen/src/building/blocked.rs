@@ -1,0 +1,78 @@
+//! Where along a street of a lot something stands already: what would be planned there is never free, and is not planned.
+//!
+//! Half of all that is planned on lots at corners would meet what stands along the other street. Nothing is refused here
+//! that would be free: who asks is told of what is sure alone.
+
+use simworld_core::geometry::Point2;
+
+use super::site::{Site, span};
+
+/// Distance by which things must meet to meet for sure, whatever is rounded, m.
+const SLACK: f64 = 1e-3;
+/// How much of what stands there is reckoned with: less than all, so that its middle meets what touches it here.
+const SHRUNK: f64 = 0.9999;
+
+/// What stands along a street, as far as it is sure to be met.
+#[derive(Default)]
+pub(super) struct Blocked {
+    /// From where to where something stands at the least depth.
+    stretches: Vec<(f64, f64)>,
+    /// From where to where there is room at every depth.
+    roomy: (f64, f64),
+    /// The gap that is kept, and the most room that is left free before a building, m.
+    gap: f64,
+    spare: f64,
+}
+
+impl Blocked {
+    /// Looks at what stands on a lot along one of its streets, whatever is to be built there: the least and the greatest depth,
+    /// the gap that it keeps, and the most of the room that it leaves free before it, m.
+    pub(super) fn look(
+        &mut self,
+        site: &Site<'_>,
+        grounds: &[[Point2; 4]],
+        depths: (f64, f64),
+        (gap, spare): (f64, f64),
+        room: impl Fn(f64) -> Option<(f64, f64)>,
+    ) {
+        self.stretches.clear();
+        if grounds.is_empty() {
+            return;
+        }
+        // Lots are convex: what has room at two depths has room at every depth between.
+        let (Some(near), Some(far)) = (room(depths.0), room(depths.1)) else { return };
+        self.roomy = (near.0.max(far.0), near.1.min(far.1));
+        (self.gap, self.spare) = (gap, spare);
+        let strip = site.depths(depths.0);
+        let stretches = grounds.iter().filter_map(|ground| stretch(site, ground, strip));
+        self.stretches.extend(stretches);
+    }
+
+    /// Whether a building at least so wide that is fitted between two stations surely fits, at the first depth that is tried,
+    /// and surely meets what stands there.
+    pub(super) fn is_sure(&self, (start, end): (f64, f64), width: f64) -> bool {
+        if self.stretches.is_empty() {
+            return false;
+        }
+        let latest = start.max(self.roomy.0);
+        if end.min(self.roomy.1) - latest < width + SLACK {
+            return false;
+        }
+        // With its gaps it takes at least this, wherever it stands in the room that it has.
+        let (low, high) = (latest + self.spare - self.gap + SLACK, start + width + self.gap - SLACK);
+        low < high && self.stretches.iter().any(|(from, to)| *from < high && low < *to)
+    }
+}
+
+/// From where to where something stands between two distances from the street.
+fn stretch(site: &Site<'_>, ground: &[Point2; 4], (near, far): (f64, f64)) -> Option<(f64, f64)> {
+    let middle = nalgebra::center(&ground[0], &ground[2]);
+    let corner = |index: usize| site.seen(middle + (ground[index] - middle) * SHRUNK);
+    let outline = [3, 0, 1, 2, 3].map(corner);
+    let (near, far) = (near + SLACK, far - SLACK);
+    // It is widest at one of its corners, or where it leaves the strip.
+    let ends = [near, far].into_iter().filter_map(|y| span(&outline, y));
+    let within = outline.iter().filter(|corner| near <= corner.y && corner.y <= far);
+    ends.chain(within.map(|corner| (corner.x, corner.x)))
+        .reduce(|all, next| (all.0.min(next.0), all.1.max(next.1)))
+}
