@@ -108,7 +108,7 @@ mod tests {
             if step % 25 == 0 && has_room {
                 put(&mut vehicles, stream, 5.0, 8.0, 0.0);
             }
-            let at = Moment { now: f64::from(step) * 0.1, dt: 0.1, step: step as u64 };
+            let at = Moment { now: f64::from(step) * 0.1, dt: 0.1, step: u64::from(step) };
             vehicles.step(&tracks, &config, Seed(1).stream("cars"), sight, at, &mut counters, &Alone);
             if step > BEGINS && vehicles.queue(&tracks, before).is_empty() {
                 return (Some(at.now - f64::from(BEGINS) * 0.1), counters);
