@@ -166,9 +166,13 @@ impl VehicleManager {
 
     /// The lane on which somebody stands whose rear is on a way that meets one's own, or to which somebody stands on such a way.
     fn rear_in_the_way(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
-        // The stretch of such a way that is to be free: of one on which nobody may be beside somebody long, all of it.
+        // The stretch of such a way that is to be free: of one that somebody long holds, or that keeps somebody long from going, all of it.
         let way = first.next as usize;
-        let conflicts = tracks.conflicts[way].iter().map(|conflict| (conflict.way, conflict.other.passed()));
+        let is_shared = |way: u32| !first.is_long() && !self.junctions.has_long(way);
+        let conflicts = tracks.conflicts[way].iter().map(|conflict| {
+            let until = if is_shared(conflict.way) { conflict.other.passed() } else { f64::INFINITY };
+            (conflict.way, until)
+        });
         let tight = tracks.tight[way].iter().map(|way| (*way, f64::INFINITY));
         let stands_on = |(way, until): (u32, f64)| {
             if let Some(lane) = self.who_trails_on(tracks, way, until) {
@@ -187,7 +191,8 @@ impl VehicleManager {
             let stands = on_way.any(|other| other.v < STANDING && other.stood > LOCKED);
             stands.then(|| self.held_up_by(tracks, way, f64::INFINITY, FAR))
         };
-        conflicts.chain(tight).find_map(stands_on)
+        let on_own = || self.who_trails_on(tracks, first.next, f64::INFINITY);
+        conflicts.chain(tight).find_map(stands_on).or_else(on_own)
     }
 
     /// The lane on which somebody stands, or for which, who is longer than the lane behind a way and has his rear on that still, before a station.

@@ -272,7 +272,7 @@ impl Part {
                 self.work.wishes.extend(wants_permit(scene, &vehicle));
             }
             let track = self.layout(scene.tracks).tracks[lane];
-            let is_free = self.leaves_room_to_the_patient(scene, &vehicle);
+            let is_free = self.leaves_room_to_the_patient(scene, &vehicle) && self.lets_in(scene, &vehicle);
             if is_free && may_enter(self, scene, (track, rank), &vehicle, &mut overtaken) {
                 if let Some(wish) = wants_permit(scene, &vehicle).filter(|_| !may_pass(scene, &vehicle)) {
                     self.work.wishes.push(wish);
@@ -291,6 +291,8 @@ impl Part {
                 if may_pass(scene, &vehicle) {
                     self.work.used_passes.push(vehicle.id);
                 }
+            } else if is_free && rank == 0 {
+                self.ask_courtesy(scene, &vehicle, scene.tracks.length[track as usize] - vehicle.s);
             }
         }
         self.work.overtaken = overtaken;
@@ -300,6 +302,7 @@ impl Part {
     /// with the longest first.
     fn reserve(&mut self, scene: &Scene<'_>, requests: &[Request]) {
         self.work.reserved.clear();
+        self.work.let_in.clear();
         let patient = requests.iter().take_while(|request| request.stood > PATIENT);
         for request in patient.filter(|request| request.rank == 0) {
             let next = self.slabs.queue(request.lane as usize)[0].next as usize;
@@ -367,7 +370,7 @@ fn has_stopped(vehicle: &Vehicle, way: &Way, distance: f64) -> bool {
     vehicle.v < speed && distance < before
 }
 
-fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {
+pub(super) fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {
     let Scene { tracks, sight, config, .. } = scene;
     let Way { signal, crosses_oncoming, .. } = tracks.ways[way];
     if signal == NONE {
@@ -402,12 +405,12 @@ fn wants_permit(scene: &Scene<'_>, vehicle: &Vehicle) -> Option<Wish> {
 }
 
 /// Whether a vehicle may enter without room behind the junction, because it is in a lock.
-fn may_pass(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+pub(super) fn may_pass(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
     scene.passes.binary_search(&vehicle.id).is_ok()
 }
 
 /// Whether the lane behind the junction has room, so that the junction is not blocked.
-fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
+pub(super) fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
     let tracks = scene.tracks;
     let lane = tracks.lane_after(way);
     if tracks.is_alone(way) && !tracks.clusters.has(lane) {

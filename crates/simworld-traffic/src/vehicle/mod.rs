@@ -7,6 +7,7 @@ mod closures;
 mod clusters;
 mod conflicts;
 mod controls;
+mod courtesy;
 mod deadlock;
 mod delays;
 mod detours;

@@ -140,6 +140,52 @@ fn who_waits_for_the_rear_of_a_bus_behind_a_short_lane_waits_for_the_lane_of_its
     assert_eq!(trails_at(end), Some(beyond));
     let passed = conflict.other.passed() - tracks.length[tracks.lanes + conflict.way as usize];
     assert_eq!(trails_at(length + passed + 0.1), None, "its rear is out of the way");
+    // But it has the whole way to itself as long as it holds it.
+    vehicles.junctions.grant(&tracks, &Vehicle { next: conflict.way, ..bus(end) }, &config);
+    let mut trails_at = |s: f64| {
+        let bus = Vehicle { holding: conflict.way, ..bus(s) };
+        vehicles.trails = vec![Trail::new(&bus, &Path::new(short, NONE, 0.0, 0.0), short)];
+        vehicles.waits_behind(&tracks, &config, lane, &car)
+    };
+    assert_eq!(trails_at(length + passed + 0.1), Some(beyond));
+}
+
+#[test]
+fn a_bus_waits_for_all_who_hold_a_way_that_meets_its_own() {
+    let (tracks, config, mut vehicles) = near_junctions();
+    let bus = config.types.iter().position(|row| row.length > 11.0).expect("there are buses") as u8;
+    let put = |vehicles: &mut VehicleManager, lane: Track, row: u8, next: u32, holding: u32, s: f64| {
+        let id = vehicles.numbers() as u32;
+        let one = Vehicle::new(config.vehicle_type(row), row, 1.0, id, s);
+        vehicles.whereabouts.push(lane);
+        let one = Vehicle { stood: 60.0, next, holding, ..one };
+        vehicles.push(&tracks, lane, one, Path::new(lane, NONE, 0.0, 0.0));
+        one
+    };
+    // Somebody stands at the beginning of the lane behind a way, with his rear on that and out of what another shares with it.
+    let car = config.types[0].length;
+    let is_out = |(way, other): &(usize, &Conflict)| {
+        let end = tracks.length[tracks.lanes + other.way as usize];
+        let rear = end + tracks.length[tracks.lane_after(other.way as usize) as usize].min(car) - 0.4 - car;
+        tracks.ways[*way].from != tracks.ways[other.way as usize].from
+            && tracks.lane_after(*way) != tracks.lane_after(other.way as usize)
+            && rear > other.other.passed()
+            && rear < end
+            // Nor does it stand in what a third shares with both.
+            && !tracks.tight[*way].contains(&other.way)
+    };
+    let mut pairs =
+        (0..tracks.ways.len()).flat_map(|way| tracks.conflicts[way].iter().map(move |other| (way, other)));
+    let (own, conflict) = pairs.find(is_out).expect("ways cross");
+    let (lane, short) = (tracks.ways[own].from, tracks.lane_after(conflict.way as usize));
+    let s = tracks.length[short as usize].min(car) - 0.4;
+    put(&mut vehicles, short, 0, NONE, conflict.way, s);
+    let line = tracks.length[lane as usize] - 0.5;
+    let first = put(&mut vehicles, lane, 0, own as u32, NONE, line);
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &first), None, "a car goes behind it");
+    let length = config.types[usize::from(bus)].length as f32;
+    let first = Vehicle { row: bus, length, ..first };
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &first), Some(short));
 }
 
 #[test]
