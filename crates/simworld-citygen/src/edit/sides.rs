@@ -1,6 +1,6 @@
 //! The faces whose land has to be made anew when streets change.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use simworld_core::geometry::bounds;
 use simworld_core::net::{NetworkPatch, RoadNetwork};
@@ -58,43 +58,70 @@ impl Changed<'_> {
         }
     }
 
-    /// The roads near some faces to which no way leads from there. Faces of streets that hang together lie beside one another; the open land
-    /// round a piece of a town that is cut off overlaps that of others, and who builds there first has it.
+    /// The roads near some faces that belong to another piece of the town than these, and are not round them yet. Faces of one piece lie
+    /// beside one another; the open land round a piece that is cut off overlaps that of others, and who builds there first has it.
     fn strangers(&self, network: &RoadNetwork, time: usize, sides: &BTreeSet<usize>) -> BTreeSet<usize> {
-        let mut known: BTreeSet<usize> = sides.iter().map(|side| side / 2).collect();
-        let around = known.iter().filter_map(|road| bounds(&network.roads[*road].centerline));
-        let is_there = |road: &usize| self.roads.iter().all(|roads| !roads.contains(road));
-        let near: BTreeSet<usize> = around
-            .flat_map(|around| self.near.near(inflated(around, NEAR)))
-            .filter(is_there)
-            .chain(self.roads[time].iter().copied())
-            .collect();
-        let mut strange: BTreeSet<usize> = BTreeSet::new();
-        for road in &near {
-            if !known.contains(road) && !strange.contains(road) {
-                let (reached, meets) = piece(network, *road, &known);
-                if meets { &mut known } else { &mut strange }.extend(reached);
-            }
+        let own: BTreeSet<usize> = sides.iter().map(|side| side / 2).collect();
+        let is_as_it_was = |road: &usize| self.roads.iter().all(|roads| !roads.contains(road));
+        let near = |road: &usize| {
+            let around = bounds(&network.roads[*road].centerline);
+            around.into_iter().flat_map(|around| self.near.near(inflated(around, NEAR))).filter(is_as_it_was)
+        };
+        let all: BTreeSet<usize> =
+            own.iter().flat_map(near).chain(self.roads[time].iter().copied()).collect();
+        let pieces = Pieces::of(network, own.iter().chain(&all));
+        if pieces.count == 1 {
+            return BTreeSet::new();
         }
-        near.intersection(&strange).copied().collect()
+        let piece = &pieces.by_road;
+        let others = |road: &usize| {
+            let own = piece[road];
+            near(road).filter(move |other| piece[other] != own).collect::<Vec<usize>>()
+        };
+        let is_new = |road: &usize| both_sides(&BTreeSet::from([*road])).any(|side| !sides.contains(&side));
+        own.iter().flat_map(others).filter(is_new).collect()
     }
 }
 
-/// What is reached from a road, and whether a road that is known is among it; then no more is looked for.
-fn piece(network: &RoadNetwork, from: usize, known: &BTreeSet<usize>) -> (BTreeSet<usize>, bool) {
-    let (mut reached, mut open) = (BTreeSet::from([from]), VecDeque::from([from]));
-    while let Some(road) = open.pop_front() {
-        let ends = [network.roads[road].from, network.roads[road].to];
-        for next in ends.iter().flat_map(|end| network.intersections[end.index()].roads.iter()) {
-            if known.contains(&next.index()) {
-                return (reached, true);
-            }
-            if reached.insert(next.index()) {
-                open.push_back(next.index());
+/// Which roads hang together.
+struct Pieces {
+    by_road: BTreeMap<usize, usize>,
+    count: usize,
+}
+
+impl Pieces {
+    /// Of some roads, of which there is one: no more of the others is looked at than it takes to come from each to one that is known.
+    fn of<'a>(network: &RoadNetwork, roads: impl Iterator<Item = &'a usize>) -> Self {
+        let mut pieces = Self { by_road: BTreeMap::new(), count: 0 };
+        for road in roads {
+            if pieces.count == 0 {
+                pieces.by_road.insert(*road, 0);
+                pieces.count = 1;
+            } else if !pieces.by_road.contains_key(road) {
+                let (reached, piece) = pieces.explore(network, *road);
+                pieces.count = pieces.count.max(piece + 1);
+                pieces.by_road.extend(reached.into_iter().map(|road| (road, piece)));
             }
         }
+        pieces
     }
-    (reached, false)
+
+    /// The roads that are reached from one until one of them is known, and their piece: a new one if none is.
+    fn explore(&self, network: &RoadNetwork, from: usize) -> (BTreeSet<usize>, usize) {
+        let (mut reached, mut open) = (BTreeSet::from([from]), VecDeque::from([from]));
+        while let Some(road) = open.pop_front() {
+            let ends = [network.roads[road].from, network.roads[road].to];
+            for next in ends.iter().flat_map(|end| network.intersections[end.index()].roads.iter()) {
+                if let Some(piece) = self.by_road.get(&next.index()) {
+                    return (reached, *piece);
+                }
+                if reached.insert(next.index()) {
+                    open.push_back(next.index());
+                }
+            }
+        }
+        (reached, self.count)
+    }
 }
 
 fn both_sides(roads: &BTreeSet<usize>) -> impl Iterator<Item = usize> {
