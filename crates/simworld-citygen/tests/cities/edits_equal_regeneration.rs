@@ -1,6 +1,8 @@
 //! An edited city is what the whole city would be on its new streets, edits reach no farther than the blocks that they
 //! touch, and each is taken back to the bit.
 
+use std::collections::BTreeSet;
+
 use simworld_citygen::block::Border;
 use simworld_citygen::building::Building;
 use simworld_citygen::edit::{CityEdit, CityEditor, EditError, NewStreet};
@@ -59,12 +61,31 @@ fn forms(buildings: &[Building]) -> Vec<Building> {
     forms
 }
 
-/// Elements in the order of their places, but for terraces, which follow the use of the building behind.
-fn without_terraces(elements: &[Element]) -> Vec<Element> {
-    let is_terrace = |element: &Element| matches!(element.kind, EntityKind::Table | EntityKind::Chair);
-    let mut set: Vec<Element> = elements.iter().filter(|element| !is_terrace(element)).copied().collect();
-    set.sort_by(|a, b| a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y)));
-    set
+/// Terraces follow the use of the building behind, which stays.
+fn is_terrace(element: &Element) -> bool {
+    matches!(element.kind, EntityKind::Table | EntityKind::Chair)
+}
+
+/// Elements, but for terraces, of which there is none like them at their place among others.
+fn strays<'a>(elements: &'a [Element], others: &[Element]) -> impl Iterator<Item = &'a Element> {
+    let key = |element: &Element| (element.kind, [element.position.x, element.position.y].map(f64::to_bits));
+    let there: BTreeSet<_> = others.iter().map(key).collect();
+    elements.iter().filter(move |element| !is_terrace(element) && !there.contains(&key(element)))
+}
+
+/// Those that stand in one of two cities alone, and not because of a terrace: what stands on one leaves no room for a thing behind the
+/// sidewalk, and where that is not there is room for the next.
+fn unexplained(ours: &[Element], theirs: &[Element]) -> Vec<(EntityKind, Point2)> {
+    let place = |element: &Element| (element.kind, element.position);
+    let mut left: Vec<_> = strays(ours, theirs).chain(strays(theirs, ours)).map(place).collect();
+    let all = ours.iter().chain(theirs);
+    let mut causes: Vec<Point2> = all.filter(|one| is_terrace(one)).map(|one| one.position).collect();
+    while let Some(next) =
+        left.iter().position(|(_, at)| causes.iter().any(|cause| (at - cause).norm() < 3.0))
+    {
+        causes.push(left.swap_remove(next).1);
+    }
+    left
 }
 
 fn assert_like_the_whole(city: &City, after: &str) {
@@ -75,55 +96,50 @@ fn assert_like_the_whole(city: &City, after: &str) {
     let (ours, theirs) = (forms(&city.buildings), forms(&whole.buildings));
     let stray = ours.iter().zip(&theirs).find(|(a, b)| a != b);
     assert!(ours == theirs, "{after}: {} buildings for {}, first {stray:#?}", ours.len(), theirs.len());
-    let (ours, theirs) = (without_terraces(&city.elements), without_terraces(&whole.elements));
-    // What stood on a terrace may leave room for a thing behind the sidewalk.
-    let missing = |a: &[Element], b: &[Element]| {
-        let find = |element: &Element| {
-            b.binary_search_by(|other| {
-                other
-                    .position
-                    .x
-                    .total_cmp(&element.position.x)
-                    .then(other.position.y.total_cmp(&element.position.y))
-            })
-            .is_ok()
-        };
-        a.iter().filter(|element| !find(element)).count()
-    };
-    let differ = missing(&ours, &theirs) + missing(&theirs, &ours);
-    assert!(differ * 500 <= ours.len(), "{after}: {differ} of {} elements differ", ours.len());
+    let stray = unexplained(&city.elements, &whole.elements);
+    assert!(stray.is_empty(), "{after}: in one city alone {stray:?}");
     assert!((city.frontage_used() - whole.frontage_used()).abs() < 1e-9, "{after}: other frontage");
 }
 
 #[test]
 fn edits_of_streets_give_the_city_of_the_new_streets() {
     let whole = std::env::var_os("SIMWORLD_SOAK").is_some();
-    let seeds = if whole { 0..40 } else { 0..2 };
-    for seed in seeds {
-        for style in Style::ALL {
-            let mut editor = CityEditor::new(city(style, 60, seed));
-            let mut rng = Seed(seed).stream("edits").rng();
-            // Many of these are refused: they would leave a piece of a street too short to be one.
-            let (mut step, mut done) = (0, 0);
-            while done < 6 {
-                step += 1;
-                assert!(step < 100, "{style:?} {seed}: only {done} edits were possible");
-                let before = editor.city().clone();
-                let edit = any_edit(&before, &mut rng);
-                let after = format!("{style:?} {seed}, step {step}, {edit:?}");
-                let Ok(undo) = editor.apply(&edit) else {
-                    assert!(*editor.city() == before, "{after}: a refused edit changed something");
-                    continue;
-                };
-                done += 1;
-                assert_like_the_whole(editor.city(), &after);
-                let edited = editor.city().clone();
-                let redo = editor.put(undo).expect("an undo fits");
-                assert!(*editor.city() == before, "{after}: not taken back");
-                editor.put(redo).expect("a redo fits");
-                assert!(*editor.city() == edited, "{after}: not done again");
-            }
-        }
+    for seed in if whole { 0..200 } else { 0..2 } {
+        Style::ALL.into_iter().for_each(|style| edit_by_chance(style, seed));
+    }
+}
+
+/// A street that alone joined two parts of a town was taken away, and the far part lost its houses; the land of parts near one another was
+/// made as if the other was not there; a shrub stood where another use of a house sets tables.
+#[test]
+fn pieces_of_a_town_are_built_on_together() {
+    edit_by_chance(Style::Mixed, 14);
+    edit_by_chance(Style::Organic, 20);
+    edit_by_chance(Style::Grid, 29);
+}
+
+fn edit_by_chance(style: Style, seed: u64) {
+    let mut editor = CityEditor::new(city(style, 60, seed));
+    let mut rng = Seed(seed).stream("edits").rng();
+    // Many of these are refused: they would leave a piece of a street too short to be one.
+    let (mut step, mut done) = (0, 0);
+    while done < 6 {
+        step += 1;
+        assert!(step < 100, "{style:?} {seed}: only {done} edits were possible");
+        let before = editor.city().clone();
+        let edit = any_edit(&before, &mut rng);
+        let after = format!("{style:?} {seed}, step {step}, {edit:?}");
+        let Ok(undo) = editor.apply(&edit) else {
+            assert!(*editor.city() == before, "{after}: a refused edit changed something");
+            continue;
+        };
+        done += 1;
+        assert_like_the_whole(editor.city(), &after);
+        let edited = editor.city().clone();
+        let redo = editor.put(undo).expect("an undo fits");
+        assert!(*editor.city() == before, "{after}: not taken back");
+        editor.put(redo).expect("a redo fits");
+        assert!(*editor.city() == edited, "{after}: not done again");
     }
 }
 
