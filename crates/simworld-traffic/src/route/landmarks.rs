@@ -51,7 +51,7 @@ impl Landmarks {
             let backward = |leg, before: (Leg, f64)| before.1 + delay(leg);
             tree(legs, searches, *landmark, onward, |leg, time| times[leg][0][number] = time as f32);
             tree(&self.before, searches, *landmark, backward, |leg, time| {
-                times[leg][1][number] = time as f32
+                times[leg][1][number] = time as f32;
             });
         }
         self.is_fresh = true;
