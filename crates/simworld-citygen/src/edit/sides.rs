@@ -78,7 +78,7 @@ impl Changed<'_> {
             let own = piece[road];
             near(road).filter(move |other| piece[other] != own).collect::<Vec<usize>>()
         };
-        let is_new = |road: &usize| both_sides(&BTreeSet::from([*road])).any(|side| !sides.contains(&side));
+        let is_new = |road: &usize| [2 * road, 2 * road + 1].iter().any(|side| !sides.contains(side));
         own.iter().flat_map(others).filter(is_new).collect()
     }
 }
