@@ -202,8 +202,8 @@ impl RoadNetwork {
         let known = |list: &[SignalGroup]| list.iter().all(|group| group.index() < groups);
         let is_timed = |phase: &Phase| phase.duration > 0.0 && phase.duration <= 86_400.0;
         all("signal plan", &self.signals, |_, plan| {
-            let lists = plan.phases.iter().flat_map(|phase| [&phase.green, &phase.yellow]);
-            let mut all_lists = lists.chain([&plan.groups]);
+            let lists = plan.phases.iter().flat_map(|phase| [&phase.green[..], &phase.yellow]);
+            let mut all_lists = lists.chain([&plan.groups[..]]);
             match () {
                 () if plan.intersection.index() >= self.intersections.len() => LOST,
                 () if !all_lists.clone().all(|list| known(list)) => LOST,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Control, CrossSection, NetworkError, RoadClass, Turn, TurnLanes, TurnSet, polyline};
+use super::{Control, CrossSection, NetworkError, RoadClass, Turn, TurnLanes, TurnSet};
 use crate::geometry::Point2;
 
 /// The shortest street that can hold two junctions and a lane between them, m.
@@ -171,6 +171,14 @@ impl StreetPlan {
         line
     }
 
+    /// The length of a street from node to node, m.
+    pub(super) fn length_of(&self, street: &Street) -> f64 {
+        let [from, to] = [&self.nodes[street.from], &self.nodes[street.to]];
+        let ends = street.via.iter().chain([to]);
+        let pieces = [from].into_iter().chain(&street.via).zip(ends);
+        pieces.map(|(start, end)| (end - start).norm()).sum()
+    }
+
     /// The height of a node, m.
     pub fn elevation(&self, node: usize) -> f64 {
         self.elevations.get(node).copied().unwrap_or(0.0)
@@ -264,7 +272,7 @@ impl StreetPlan {
         if !street.via.iter().all(is_near) {
             return Err("has a point of its course that is not within ±1e7 m".to_owned());
         }
-        let length = polyline::length(&self.centerline(street));
+        let length = self.length_of(street);
         if length < SHORTEST_STREET {
             return Err(format!(
                 "is {length:.1} m long: give at least {SHORTEST_STREET} m, or merge its nodes"

@@ -1,5 +1,7 @@
 //! Polylines in the plane: lengths, stations, offsets, nearest points. A station is a distance along, m.
 
+use smallvec::SmallVec;
+
 use crate::geometry::{Point2, Vector2};
 use crate::ops;
 
@@ -38,7 +40,8 @@ fn at_piece(path: &[Point2], station: f64) -> (Point2, Option<Vector2>) {
 /// The part between two stations, both clamped to the path; two equal points if nothing is left.
 pub fn slice(path: &[Point2], from: f64, to: f64) -> Vec<Point2> {
     let (from, to) = (from.max(0.0), to.min(length(path)));
-    let mut out = vec![at_piece(path, from).0];
+    let mut out = Vec::with_capacity(path.len().min(8));
+    out.push(at_piece(path, from).0);
     let mut station = 0.0;
     for pair in path.windows(2) {
         station += (pair[1] - pair[0]).norm();
@@ -53,24 +56,34 @@ pub fn slice(path: &[Point2], from: f64, to: f64) -> Vec<Point2> {
 /// The path shifted sideways, positive to the left; corners are mitred, sharp ones cut at twice the offset. Where it bends
 /// more tightly than the shift, the pieces that would run backwards are left out.
 pub fn offset(path: &[Point2], distance: f64) -> Vec<Point2> {
+    let mut shifted = Vec::with_capacity(path.len());
+    offset_into(path, distance, &mut shifted);
+    shifted
+}
+
+/// The same, written over what was there.
+pub(in crate::net) fn offset_into(path: &[Point2], distance: f64, shifted: &mut Vec<Point2>) {
+    if mitre(path, distance, shifted) || path.len() < 3 {
+        return;
+    }
     let mut pieces = pieces(path);
-    let mut shifted = mitred(path, &pieces, distance);
-    let is_backward = |shifted: &[Point2], index: usize, piece: &Piece| {
-        (shifted[index + 1] - shifted[index]).dot(&piece.along) < 0.0
-    };
     while pieces.len() > 1 {
         let before = pieces.len();
         let mut index = 0;
         pieces.retain(|piece| {
             index += 1;
-            !is_backward(&shifted, index - 1, piece)
+            !is_backward((shifted[index - 1], shifted[index]), piece)
         });
         if pieces.len() == before || pieces.is_empty() {
             break;
         }
-        shifted = joined(path, &pieces, distance);
+        *shifted = joined(path, &pieces, distance);
     }
-    shifted
+}
+
+/// Whether a piece runs backwards between where its ends were shifted to.
+fn is_backward((start, end): (Point2, Point2), piece: &Piece) -> bool {
+    (end - start).dot(&piece.along) < 0.0
 }
 
 /// A straight piece of a path: where it begins and its direction.
@@ -86,26 +99,33 @@ impl Piece {
     }
 }
 
-fn pieces(path: &[Point2]) -> Vec<Piece> {
-    path.windows(2)
-        .map(|pair| Piece {
-            start: pair[0],
-            along: (pair[1] - pair[0]).try_normalize(1e-12).unwrap_or_else(Vector2::zeros),
-        })
-        .collect()
+fn piece(pair: &[Point2]) -> Piece {
+    let along = (pair[1] - pair[0]).try_normalize(1e-12).unwrap_or_else(Vector2::zeros);
+    Piece { start: pair[0], along }
 }
 
-/// Every point shifted along the bisector of its two pieces.
-fn mitred(path: &[Point2], pieces: &[Piece], distance: f64) -> Vec<Point2> {
-    let shift = |index: usize| -> Vector2 {
-        let before = pieces.get(index.wrapping_sub(1)).or(pieces.first());
-        let after = pieces.get(index).or(pieces.last());
-        let (Some(before), Some(after)) = (before, after) else { return Vector2::zeros() };
+fn pieces(path: &[Point2]) -> Vec<Piece> {
+    path.windows(2).map(piece).collect()
+}
+
+/// Writes every point shifted along the bisector of its two pieces over what was there, and tells whether all pieces still run
+/// forwards.
+fn mitre(path: &[Point2], distance: f64, shifted: &mut Vec<Point2>) -> bool {
+    shifted.clear();
+    let Some(first) = path.get(..2).map(piece) else {
+        shifted.extend_from_slice(path);
+        return true;
+    };
+    let (mut before, mut runs_on) = (first, true);
+    for index in 0..path.len() {
+        let after = path.get(index..index + 2).map_or(before, piece);
         let sum = before.left() + after.left();
         let scale = (2.0 / sum.norm_squared().max(1e-12)).min(2.0);
-        sum * scale
-    };
-    path.iter().enumerate().map(|(index, point)| point + shift(index) * distance).collect()
+        shifted.push(path[index] + sum * scale * distance);
+        runs_on &= index == 0 || !is_backward((shifted[index - 1], shifted[index]), &before);
+        before = after;
+    }
+    runs_on
 }
 
 /// The lines of some of the pieces of a path, shifted, from where one meets the next; from beside the beginning of the
@@ -177,15 +197,15 @@ pub fn closest(path: &[Point2], point: &Point2) -> Option<Closest> {
 #[derive(Clone, Debug)]
 pub struct Measured<'a> {
     path: &'a [Point2],
-    /// Length of each piece, m.
-    spans: Vec<f64>,
+    /// Length of each piece, m. Most paths have few.
+    spans: SmallVec<[f64; 8]>,
     length: f64,
 }
 
 impl<'a> Measured<'a> {
     /// Measures a path.
     pub fn new(path: &'a [Point2]) -> Self {
-        let spans: Vec<f64> = path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+        let spans: SmallVec<[f64; 8]> = path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
         Self { path, length: spans.iter().sum(), spans }
     }
 
@@ -196,7 +216,7 @@ impl<'a> Measured<'a> {
 
     /// See [`slice`](fn@slice).
     pub fn slice(&self, from: f64, to: f64) -> Vec<Point2> {
-        let mut out = Vec::new();
+        let mut out = Vec::with_capacity(self.path.len().min(8));
         self.slice_into(from, to, &mut out);
         out
     }

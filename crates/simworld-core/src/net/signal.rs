@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Few;
 use crate::id::IntersectionId;
 
 /// What a signal shows.
@@ -37,9 +38,9 @@ pub struct Phase {
     /// How long it lasts, s.
     pub duration: f64,
     /// Groups that show green, ascending.
-    pub green: Vec<SignalGroup>,
+    pub green: Few<SignalGroup>,
     /// Groups that show yellow, ascending; all others of the plan show red.
-    pub yellow: Vec<SignalGroup>,
+    pub yellow: Few<SignalGroup>,
 }
 
 impl Phase {

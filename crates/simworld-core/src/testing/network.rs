@@ -85,8 +85,8 @@ fn order_signals(
     let mut plan = network.signals[plan as usize].clone();
     let first = ordered.signal_groups() as u32;
     let names: Vec<_> = plan.groups.iter().copied().zip((first..).map(SignalGroup)).collect();
-    let lists = plan.phases.iter_mut().flat_map(|phase| [&mut phase.green, &mut phase.yellow]);
-    lists.chain([&mut plan.groups]).flatten().for_each(|group| *group = renamed(&names, *group));
+    let lists = plan.phases.iter_mut().flat_map(|phase| [&mut phase.green[..], &mut phase.yellow]);
+    lists.chain([&mut plan.groups[..]]).flatten().for_each(|group| *group = renamed(&names, *group));
     ordered.intersections[index].signals = Some(ordered.signals.len() as u32);
     ordered.signals.push(plan);
     names

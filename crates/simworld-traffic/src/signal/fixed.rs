@@ -164,8 +164,8 @@ mod tests {
         let groups: Vec<SignalGroup> = (7..10).map(SignalGroup).collect();
         let phase = |duration, green: &[SignalGroup], yellow: &[SignalGroup]| Phase {
             duration,
-            green: green.to_vec(),
-            yellow: yellow.to_vec(),
+            green: green.into(),
+            yellow: yellow.into(),
         };
         let stage = |group: &SignalGroup| {
             let own = [*group];

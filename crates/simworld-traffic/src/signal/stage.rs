@@ -28,7 +28,7 @@ pub(super) fn stages(plan: &SignalPlan) -> Vec<Stage> {
     (0..count)
         .filter(|index| is_main(*index))
         .map(|phase| Stage {
-            green: plan.phases[phase].green.clone(),
+            green: plan.phases[phase].green.to_vec(),
             phase,
             ending: (phase + 1..phase + count)
                 .take_while(|next| !is_main(*next))

@@ -340,15 +340,13 @@ fn siblings(network: &RoadNetwork, connection: usize) -> Vec<(u32, f64)> {
     others
         .map(|id| {
             let other = &network.connections[id.index()];
-            let mut clear = 0.0;
-            let mut station = 0.0;
-            for piece in other.path.windows(2) {
-                station += (piece[1] - piece[0]).norm();
-                if polyline::closest(&own.path, &piece[1]).is_some_and(|near| near.distance < APART) {
-                    clear = station;
-                }
-            }
-            (id.0, clear + 0.5)
+            let metres = other.length.ceil().max(1.0);
+            let is_near = |station: &f64| {
+                let point = polyline::at(&other.path, *station).0;
+                polyline::closest(&own.path, &point).is_some_and(|near| near.distance < APART)
+            };
+            let mut stations = (1..=metres as u32).map(|metre| other.length * f64::from(metre) / metres);
+            (id.0, stations.rfind(is_near).unwrap_or(0.0) + 0.5)
         })
         .collect()
 }

@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::beside::Kerb;
+use super::curve::{curve, dense_curve};
 use super::legs::Leg;
+use super::near_side::Search;
 use super::trace::{Trace, Traces};
 use super::{cycles, hammerhead, kerbs, near_side};
 use crate::geometry::{Point2, Vector2, direction};
@@ -33,7 +34,7 @@ struct Builder {
     traces: Traces,
     claims: Vec<Claim>,
     met: Vec<Meeting>,
-    kerb: Kerb,
+    search: Search,
 }
 
 /// The connections of some intersections that follow one another, with numbers from zero on. Lanes, crossings and signals
@@ -114,7 +115,7 @@ impl Builder {
                     // Ways from one lane follow one another, and its end is far from its beginning.
                     _ => arrival.insert((movement.0, end_of(network, movement.0))).1,
                 };
-                self.made.push(connection(network, &place, arrival, *movement, signal, &mut self.kerb));
+                self.made.push(connection(network, &place, arrival, *movement, signal, &mut self.search));
             }
         }
         self.traces.clear();
@@ -265,7 +266,7 @@ fn path(
     place: &Place<'_>,
     (start, arriving_along): (Point2, Vector2),
     (from, to, turn): (LaneId, LaneId, Turn),
-    kerb: &mut Kerb,
+    search: &mut Search,
 ) -> Vec<Point2> {
     let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
@@ -285,14 +286,15 @@ fn path(
             return path;
         }
     }
-    let smooth = curve(start, arriving_along, end, direction(end_heading));
+    let end_along = direction(end_heading);
     let next = (place.leg + 1) % place.legs.len();
     if turn == Turn::UTurn || place.legs[next].street != exit.road.index() {
-        return smooth;
+        return curve(start, arriving_along, end, end_along);
     }
+    let smooth = dense_curve(start, arriving_along, end, end_along).collect();
     let way = near_side::Way { from: leg, start, to: &place.legs[next], end };
     let corner = (&network.intersections[place.id.index()], place.leg);
-    near_side::keep_off(network, corner, &way, smooth, kerb)
+    near_side::keep_off(network, corner, &way, smooth, search)
 }
 
 fn connection(
@@ -301,9 +303,9 @@ fn connection(
     arrival: (Point2, Vector2),
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
-    kerb: &mut Kerb,
+    search: &mut Search,
 ) -> Connection {
-    let path = path(network, place, arrival, (from, to, turn), kerb);
+    let path = path(network, place, arrival, (from, to, turn), search);
     Connection {
         from,
         to,
@@ -316,27 +318,6 @@ fn connection(
         yields_to: Few::new(),
         crossings: Few::new(),
     }
-}
-
-/// A cubic Bézier curve that leaves and arrives along the given directions, a point about every metre.
-pub(in crate::net) fn curve(start: Point2, leaving: Vector2, end: Point2, arriving: Vector2) -> Vec<Point2> {
-    let apart = (end - start).norm();
-    // Longer handles where the curve turns back, so that a U-turn bulges like half a circle.
-    let turned_back = (1.0 - leaving.dot(&arriving)) * 0.5;
-    let handle = apart * (0.36 + 0.3 * turned_back * turned_back);
-    let (a, b) = (start + leaving * handle, end - arriving * handle);
-    let pieces = (apart.ceil() as usize).clamp(4, 200);
-    (0..=pieces)
-        .map(|index| {
-            let t = index as f64 / pieces as f64;
-            let s = 1.0 - t;
-            let sum = start.coords * (s * s * s)
-                + a.coords * (3.0 * s * s * t)
-                + b.coords * (3.0 * s * t * t)
-                + end.coords * (t * t * t);
-            sum.into()
-        })
-        .collect()
 }
 
 /// What decides between two connections that touch.

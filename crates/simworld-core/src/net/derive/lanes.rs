@@ -4,6 +4,7 @@ use super::NetworkConfig;
 use super::legs::Leg;
 use crate::geometry::Point2;
 use crate::id::{LaneId, RoadId};
+use crate::net::polyline::Measured;
 use crate::net::{
     CrossSection, Few, Lane, LaneDirection, LaneKind, LaneSpec, RoadNetwork, StreetPlan, Strip, polyline,
 };
@@ -18,10 +19,11 @@ pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>
         let (start, end) = &mut stops[leg.street];
         *if leg.at_start { start } else { end } = leg.stop;
     }
+    let mut middle = Vec::new();
     for (index, (street, (start, end))) in plan.streets.iter().zip(stops).enumerate() {
-        let centerline = &network.roads[index].centerline;
-        let stations = (start, polyline::length(centerline) - end);
-        let middle = polyline::slice(centerline, stations.0, stations.1);
+        let centerline = Measured::new(&network.roads[index].centerline);
+        let stations = (start, centerline.length() - end);
+        centerline.slice_into(stations.0, stations.1, &mut middle);
         let speed_limit = street.speed_limit.unwrap_or_else(|| config.speed_limit(street.class));
         for (offset, spec) in plan.section(street).strips() {
             match spec.kind {

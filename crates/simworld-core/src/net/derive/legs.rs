@@ -78,8 +78,7 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>
     let mut legs: Vec<Vec<Leg>> = vec![Vec::new(); plan.nodes.len()];
     let mut lengths = Vec::with_capacity(plan.streets.len());
     for (index, street) in plan.streets.iter().enumerate() {
-        let line = plan.centerline(street);
-        lengths.push(polyline::length(&line));
+        lengths.push(plan.length_of(street));
         let section = plan.section(street);
         let (left, right) = section.kerbs();
         let (left_walk, right_walk) =
@@ -106,8 +105,10 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>
                 node: plan.nodes[node],
             }
         };
-        legs[street.from].push(leaving(street.from, line[1], true));
-        legs[street.to].push(leaving(street.to, line[line.len() - 2], false));
+        let first = street.via.first().copied().unwrap_or(plan.nodes[street.to]);
+        let last = street.via.last().copied().unwrap_or(plan.nodes[street.from]);
+        legs[street.from].push(leaving(street.from, first, true));
+        legs[street.to].push(leaving(street.to, last, false));
     }
     for legs in &mut legs {
         legs.sort_by(|a, b| a.heading.total_cmp(&b.heading).then(a.street.cmp(&b.street)));

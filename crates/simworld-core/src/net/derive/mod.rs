@@ -2,6 +2,7 @@
 
 mod beside;
 mod connections;
+mod curve;
 mod cycles;
 mod hammerhead;
 mod kerbs;
@@ -21,7 +22,8 @@ use thiserror::Error;
 use super::{Control, DrivingSide, Few, Intersection, Road, RoadClass, RoadNetwork, Street, StreetPlan};
 use crate::geometry::Point2;
 use crate::id::{IntersectionId, RoadId};
-pub(super) use connections::{curve, settle};
+pub(super) use connections::settle;
+pub(super) use curve::curve;
 use legs::Leg;
 use workers::PART;
 pub use workers::{Alone, Workers};

@@ -3,10 +3,10 @@
 //! A smooth curve from stop line to stop line cuts the corner where the junction reaches far into its legs, or where a leg
 //! bends within the junction. There the way first follows its leg further in, and turns later and more tightly.
 
-use super::connections::curve;
 use std::borrow::Cow;
 
 use super::beside::Kerb;
+use super::curve::dense_curve;
 use super::legs::Leg;
 use crate::geometry::{Point2, direction, heading};
 use crate::net::polyline::{self, Measured};
@@ -39,6 +39,19 @@ fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
     intersection.outline.get(*start as usize..end).unwrap_or(&[])
 }
 
+/// What ways are looked for with, kept from one to the next.
+#[derive(Default)]
+pub(super) struct Search {
+    kerb: Kerb,
+    /// The way that is tried.
+    path: Vec<Point2>,
+    /// Its part behind the turn.
+    exit: Vec<Point2>,
+    /// Of the leg that is followed the middle, and the line of the lane.
+    middle: Vec<Point2>,
+    line: Vec<Point2>,
+}
+
 /// The smooth curve, or the widest turn that keeps off the kerb of a leg where that one does not; where none does, the one
 /// that keeps farthest.
 pub(super) fn keep_off(
@@ -46,12 +59,12 @@ pub(super) fn keep_off(
     (intersection, leg): (&Intersection, usize),
     way: &Way<'_>,
     smooth: Vec<Point2>,
-    measured: &mut Kerb,
+    search: &mut Search,
 ) -> Vec<Point2> {
-    measured.set(kerb(intersection, leg));
-    let ends = measured.beside(&way.start).min(measured.beside(&way.end));
+    search.kerb.set(kerb(intersection, leg));
+    let ends = search.kerb.beside(&way.start).min(search.kerb.beside(&way.end));
     let wanted = CLEARANCE.min(ends) - MARGIN;
-    let mut best = (measured.clearance(&smooth), smooth);
+    let mut best = (search.kerb.clearance(&smooth), smooth);
     if best.0 >= wanted.min(LEAST_CLEARANCE) {
         return best.1;
     }
@@ -60,9 +73,12 @@ pub(super) fn keep_off(
     let (mut into, mut out) = (way.from.stop, way.to.stop);
     while best.0 < wanted && into.max(out) > STEP {
         (into, out) = ((into - STEP).max(STEP), (out - STEP).max(STEP));
-        let Some(path) = later(way, (&from, into), (&to, out)) else { break };
-        if let Some(clear) = measured.clearance_above(&path, best.0) {
-            best = (clear, path);
+        if search.turn_later(way, (&from, into), (&to, out)).is_none() {
+            break;
+        }
+        if let Some(clear) = search.kerb.clearance_above(&search.path, best.0) {
+            best.0 = clear;
+            best.1.clone_from(&search.path);
         }
     }
     best.1
@@ -74,25 +90,27 @@ fn outwards<'a>(network: &'a RoadNetwork, leg: &Leg) -> Cow<'a, [Point2]> {
     if leg.at_start { centerline.into() } else { polyline::reversed(centerline).into() }
 }
 
-/// The way that follows its legs to so far from the node, m, and turns there; `None` if that is too tight.
-fn later(
-    way: &Way<'_>,
-    (from, into): (&Measured<'_>, f64),
-    (to, out): (&Measured<'_>, f64),
-) -> Option<Vec<Point2>> {
-    let mut path = along(from, way.from, way.start, into);
-    path.reverse();
-    let exit = along(to, way.to, way.end, out);
-    let (ahead, back) = (heading_out(path.iter())?, heading_out(exit.iter().rev())?);
-    let (start, end) = (*path.last()?, *exit.first()?);
-    if (end - start).norm() < LEAST_CHORD {
-        return None;
+impl Search {
+    /// Sets the path to the way that follows its legs to so far from the node, m, and turns there; `None` if that is too tight.
+    fn turn_later(
+        &mut self,
+        way: &Way<'_>,
+        (from, into): (&Measured<'_>, f64),
+        (to, out): (&Measured<'_>, f64),
+    ) -> Option<()> {
+        let Self { path, exit, middle, line, .. } = self;
+        along(from, (way.from, way.start), into, (middle, line), path);
+        path.reverse();
+        along(to, (way.to, way.end), out, (middle, line), exit);
+        let (ahead, back) = (heading_out(path.iter())?, heading_out(exit.iter().rev())?);
+        let (start, end) = (*path.last()?, *exit.first()?);
+        if (end - start).norm() < LEAST_CHORD {
+            return None;
+        }
+        path.extend(dense_curve(start, direction(ahead), end, -direction(back)).skip(1));
+        path.extend_from_slice(&exit[1..]);
+        Some(())
     }
-    let turn = curve(start, direction(ahead), end, -direction(back));
-    path.reserve_exact(turn.len() + exit.len() - 2);
-    path.extend_from_slice(&turn[1..]);
-    path.extend_from_slice(&exit[1..]);
-    Some(path)
 }
 
 /// The heading with which a path ends, radians; `None` if nothing of it has a length.
@@ -109,18 +127,26 @@ fn heading_out<'a>(path: impl DoubleEndedIterator<Item = &'a Point2>) -> Option<
     None
 }
 
-/// The line of a lane within the junction, from `from` m off the node outwards to the lane's end, a point about every metre.
-fn along(outwards: &Measured<'_>, leg: &Leg, lane_end: Point2, from: f64) -> Vec<Point2> {
-    let middle = outwards.slice(from, leg.stop);
+/// Writes the line of a lane within the junction over `path`, from `from` m off the node outwards to the lane's end, a point about
+/// every metre; `middle` and `line` lend their memory.
+fn along(
+    outwards: &Measured<'_>,
+    (leg, lane_end): (&Leg, Point2),
+    from: f64,
+    (middle, line): (&mut Vec<Point2>, &mut Vec<Point2>),
+    path: &mut Vec<Point2>,
+) {
+    outwards.slice_into(from, leg.stop, middle);
     let lateral = leg.direction().perp(&(lane_end - leg.node));
-    let lateral = polyline::closest(&middle, &lane_end).map_or(lateral, |closest| closest.lateral);
-    let mut line = polyline::offset(&middle, lateral);
+    let lateral = polyline::closest(middle, &lane_end).map_or(lateral, |closest| closest.lateral);
+    polyline::offset_into(middle, lateral, line);
     if let Some(last) = line.last_mut() {
         *last = lane_end;
     }
-    let line = Measured::new(&line);
+    let line = Measured::new(line);
     let pieces = line.length().ceil().max(1.0);
-    (0..=pieces as usize).map(|index| line.point_at(line.length() * index as f64 / pieces)).collect()
+    path.clear();
+    path.extend((0..=pieces as usize).map(|index| line.point_at(line.length() * index as f64 / pieces)));
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::NetworkConfig;
 use super::legs::Leg;
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId};
-use crate::net::{Control, Phase, RoadNetwork, SignalGroup, SignalPlan};
+use crate::net::{Control, Few, Phase, RoadNetwork, SignalGroup, SignalPlan};
 use crate::ops::wrap_angle;
 use crate::seed::Seed;
 
@@ -31,31 +31,32 @@ pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg], c
         let road = network.crossings[crossing.index()].road;
         legs.iter().position(|leg| leg.street == road.index())
     };
-    let crossed_legs: Vec<(usize, CrossingId)> =
+    let crossed_legs: Few<(usize, CrossingId)> =
         crossings.iter().filter_map(|crossing| Some((leg_of(crossing)?, *crossing))).collect();
     for (leg, crossing) in &crossed_legs {
         network.crossings[crossing.index()].signal = Some(walkers(*leg));
     }
-    let mut phases = Vec::new();
-    for stage in stages(legs) {
+    let stages = stages(legs);
+    let mut phases = Vec::with_capacity(4 * stages.len());
+    for stage in stages {
         // People cross the legs whose own vehicles stand; those who turn into them give way.
-        let crossed: Vec<(usize, CrossingId)> =
+        let crossed: Few<(usize, CrossingId)> =
             crossed_legs.iter().copied().filter(|(leg, _)| !stage.contains(leg)).collect();
         let width = |(_, crossing): &(usize, CrossingId)| {
             let crossing = &network.crossings[crossing.index()];
             distance(crossing.start, crossing.end)
         };
         let clearance = crossed.iter().map(width).fold(0.0, f64::max) / CLEARANCE_SPEED;
-        let go: Vec<SignalGroup> = stage.iter().map(|leg| vehicles(*leg)).collect();
-        let walk: Vec<SignalGroup> = crossed.iter().map(|(leg, _)| walkers(*leg)).collect();
-        let both = [go.clone(), walk.clone()].concat();
+        let go: Few<SignalGroup> = stage.iter().map(|leg| vehicles(*leg)).collect();
+        let walk: Few<SignalGroup> = crossed.iter().map(|(leg, _)| walkers(*leg)).collect();
+        let both = go.iter().chain(&walk).copied().collect();
         let walking_time = (config.green - clearance).max(LEAST_WALK);
-        phases.push(Phase { duration: walking_time, green: both, yellow: Vec::new() });
+        phases.push(Phase { duration: walking_time, green: both, yellow: Few::new() });
         if clearance > 0.0 {
             phases.push(Phase { duration: clearance, green: go.clone(), yellow: walk });
         }
-        phases.push(Phase { duration: config.yellow, green: Vec::new(), yellow: go });
-        phases.push(Phase { duration: config.all_red, green: Vec::new(), yellow: Vec::new() });
+        phases.push(Phase { duration: config.yellow, green: Few::new(), yellow: go });
+        phases.push(Phase { duration: config.all_red, green: Few::new(), yellow: Few::new() });
     }
     phases.retain(|phase| phase.duration > 0.0);
     let cycle: f64 = phases.iter().map(|phase| phase.duration).sum();
@@ -72,9 +73,9 @@ fn share_of_cycle(center: Point2) -> f64 {
 }
 
 /// The approaches that go together: opposite ones in pairs, the rest alone; legs ascending.
-fn stages(legs: &[Leg]) -> Vec<Vec<usize>> {
-    let mut left: Vec<usize> = (0..legs.len()).collect();
-    let mut stages = Vec::new();
+fn stages(legs: &[Leg]) -> Few<Few<usize>> {
+    let mut left: Few<usize> = (0..legs.len()).collect();
+    let mut stages = Few::new();
     while let Some(leg) = left.first().copied() {
         left.remove(0);
         let facing =
@@ -83,9 +84,9 @@ fn stages(legs: &[Leg]) -> Vec<Vec<usize>> {
         match partner.filter(|other| facing(other) <= OPPOSITE) {
             Some(other) => {
                 left.retain(|leg| *leg != other);
-                stages.push(vec![leg, other]);
+                stages.push(Few::from_slice(&[leg, other]));
             }
-            None => stages.push(vec![leg]),
+            None => stages.push(Few::from_slice(&[leg])),
         }
     }
     stages

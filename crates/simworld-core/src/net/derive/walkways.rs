@@ -7,7 +7,8 @@ use super::legs::{self, Leg};
 use super::workers::{self, Workers};
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId, RoadId, SidewalkId};
-use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan, polyline};
+use crate::net::polyline::{self, Measured};
+use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan};
 
 /// Adds the sidewalks that the cross-sections have, the corners between them, and the crossings that join them.
 pub(super) fn add(
@@ -63,7 +64,8 @@ fn sidewalks(
     (start, end): (f64, f64),
 ) -> [Option<Sidewalk>; 2] {
     let section = plan.section(&plan.streets[street]);
-    let middle = polyline::slice(centerline, start, polyline::length(centerline) - end);
+    let centerline = Measured::new(centerline);
+    let middle = centerline.slice(start, centerline.length() - end);
     let strips = || section.strips().filter(|(_, spec)| spec.kind == LaneKind::Sidewalk);
     let kerb = section.kerbs().0;
     // The outermost on either side; one that lies between the kerbs is no sidewalk of either.
@@ -111,7 +113,8 @@ fn corners(network: &RoadNetwork, legs: &[Leg]) -> Vec<Vec<Point2>> {
         let (leg, next) = (&legs[index], &legs[(index + 1) % legs.len()]);
         let (start, left_margin) = sidewalk_end(network, leg, Side::Left)?;
         let (end, right_margin) = sidewalk_end(network, next, Side::Right)?;
-        let mut walkway = vec![start];
+        let mut walkway = Vec::with_capacity(3);
+        walkway.push(start);
         if legs.len() == 1 {
             // Round the back of a dead end.
             if leg.turning > 0.0 {

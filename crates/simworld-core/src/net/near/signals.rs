@@ -3,7 +3,7 @@
 use super::find::Compound;
 use super::ways::{Composed, leads_over};
 use crate::id::CrossingId;
-use crate::net::{Phase, RoadNetwork, SignalGroup, SignalPlan, Turn, polyline};
+use crate::net::{Few, Phase, RoadNetwork, SignalGroup, SignalPlan, Turn, polyline};
 use crate::ops::wrap_angle;
 
 /// Walking speed for which the clearance of a crossing is laid out, m/s.
@@ -127,7 +127,7 @@ fn phases(network: &RoadNetwork, compound: &Compound, ways: &[Composed], times: 
     let walks = walks(network, compound, ways, &arms, &stages);
     let mut phases = Vec::new();
     for (stage, walks) in stages.iter().chain([&Vec::new()]).zip(&walks) {
-        let mut go: Vec<SignalGroup> = stage.iter().map(|arm| arms[*arm].group).collect();
+        let mut go: Few<SignalGroup> = stage.iter().map(|arm| arms[*arm].group).collect();
         go.extend(inside(network, compound, ways, stage.iter().flat_map(|arm| &arms[*arm].ways)));
         add_stage(&mut phases, network, sorted(go), walks, times);
     }
@@ -138,7 +138,7 @@ fn phases(network: &RoadNetwork, compound: &Compound, ways: &[Composed], times: 
 fn add_stage(
     phases: &mut Vec<Phase>,
     network: &RoadNetwork,
-    go: Vec<SignalGroup>,
+    go: Few<SignalGroup>,
     walks: &[CrossingId],
     times: Times,
 ) {
@@ -149,19 +149,19 @@ fn add_stage(
     let width = crossings().map(|crossing| (crossing.end - crossing.start).norm()).fold(0.0, f64::max);
     let clearance = width / CLEARANCE_SPEED;
     let walk = sorted(crossings().filter_map(|crossing| crossing.signal).collect());
-    let both = sorted([go.clone(), walk.clone()].concat());
+    let both = sorted(go.iter().chain(&walk).copied().collect());
     let green = if go.is_empty() { LEAST_WALK } else { (times.green - clearance).max(LEAST_WALK) };
-    phases.push(Phase { duration: green, green: both, yellow: Vec::new() });
+    phases.push(Phase { duration: green, green: both, yellow: Few::new() });
     if clearance > 0.0 {
         phases.push(Phase { duration: clearance, green: go.clone(), yellow: walk });
     }
     if !go.is_empty() {
-        phases.push(Phase { duration: times.yellow, green: Vec::new(), yellow: go });
+        phases.push(Phase { duration: times.yellow, green: Few::new(), yellow: go });
     }
-    phases.push(Phase { duration: times.all_red, green: Vec::new(), yellow: Vec::new() });
+    phases.push(Phase { duration: times.all_red, green: Few::new(), yellow: Few::new() });
 }
 
-fn sorted(mut groups: Vec<SignalGroup>) -> Vec<SignalGroup> {
+fn sorted(mut groups: Few<SignalGroup>) -> Few<SignalGroup> {
     groups.sort_unstable();
     groups.dedup();
     groups
