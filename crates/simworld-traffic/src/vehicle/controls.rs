@@ -44,7 +44,7 @@ impl FreeVehicle {
 
     /// Puts it somewhere else; its trip is as long as its way over the ground.
     pub(crate) fn move_to(&mut self, pose: Pose, twist: Twist) {
-        self.path.driven += (planar(&pose) - planar(&self.pose)).norm();
+        self.path.add((planar(&pose) - planar(&self.pose)).norm(), 0.0);
         (self.pose, self.twist) = (pose, twist);
     }
 }
@@ -319,8 +319,7 @@ impl VehicleManager {
         self.halts.remove(id);
         let row = config.vehicle_type(vehicle.row);
         let s = vehicle.s.min(tracks.length[from as usize]);
-        path.driven += s;
-        path.free_time += s / row.free_speed(config, vehicle.factor, tracks.speed[from as usize]);
+        path.add(s, s / row.free_speed(config, vehicle.factor, tracks.speed[from as usize]));
         (vehicle.s, vehicle.v, vehicle.stood, vehicle.shift, vehicle.acceleration) =
             (0.0, 0.0, 0.0, 0.0, 0.0);
         (vehicle.next, vehicle.holding, vehicle.halt) = (NONE, NONE, f32::INFINITY);

@@ -139,8 +139,7 @@ impl VehicleManager {
         let row = config.vehicle_type(departure.row);
         let mut path = Path::new(lane, departure.route, departure.scheduled, now);
         // Its way is not driven up to where its front appears.
-        path.driven = -s;
-        path.free_time = -s / row.free_speed(config, departure.factor, tracks.speed[lane as usize]);
+        path.add(-s, -s / row.free_speed(config, departure.factor, tracks.speed[lane as usize]));
         let id = if let Some(id) = self.free.pop() {
             self.whereabouts.set(id as usize, lane);
             id
@@ -239,8 +238,8 @@ pub(super) fn trip(
         scheduled: path.scheduled,
         entered: path.entered,
         left: now - early,
-        distance: path.driven + s,
-        free_time: path.free_time + s / row.free_speed(config, vehicle.factor, tracks.speed[track]),
+        distance: path.driven() + s,
+        free_time: path.free_time() + s / row.free_speed(config, vehicle.factor, tracks.speed[track]),
     }
 }
 

@@ -8,7 +8,7 @@ use simworld_core::seed::Stream;
 
 use super::controls::FreeVehicle;
 use super::entry::route_way;
-use super::manager::{NONE, Path, Vehicle, VehicleManager};
+use super::manager::{NONE, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::takeover::ControlError;
 use crate::{Leg, Route, TrafficConfig};
@@ -152,11 +152,11 @@ impl VehicleManager {
     ) {
         let lane = place.lane;
         let row = config.vehicle_type(free.vehicle.row);
-        let mut path = Path { before: lane, route: NONE, leg: 0, ..free.path };
+        let mut path = free.path;
+        (path.before, path.route, path.leg) = (lane, NONE, 0);
         // Its trip goes on where it is now.
-        path.driven -= place.front;
-        path.free_time -=
-            place.front / row.free_speed(config, free.vehicle.factor, tracks.speed[lane as usize]);
+        let speed = row.free_speed(config, free.vehicle.factor, tracks.speed[lane as usize]);
+        path.add(-place.front, -place.front / speed);
         if let Some(route) = route {
             path.route = self.add_route(route);
         }

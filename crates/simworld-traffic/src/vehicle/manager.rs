@@ -109,14 +109,31 @@ pub(crate) struct Path {
     pub(super) decisions: u32,
     pub(super) scheduled: f64,
     pub(super) entered: f64,
-    /// Distance and free travel time of the tracks that it has left, m and s.
-    pub(super) driven: f64,
-    pub(super) free_time: f64,
+    /// Distance and free travel time of the tracks that it has left, m and s: to a millimetre and a millisecond over ten kilometres
+    /// and some hours.
+    driven: f32,
+    free_time: f32,
 }
 
 impl Path {
     pub(super) fn new(track: Track, route: u32, scheduled: f64, entered: f64) -> Self {
         Self { before: track, route, scheduled, entered, ..Self::default() }
+    }
+
+    /// Adds a distance to what it has driven, m, and the time that it takes at free speed, s; both may be negative.
+    pub(super) fn add(&mut self, distance: f64, free_time: f64) {
+        self.driven = (f64::from(self.driven) + distance) as f32;
+        self.free_time = (f64::from(self.free_time) + free_time) as f32;
+    }
+
+    /// The length of the tracks that it has left, m.
+    pub(super) fn driven(&self) -> f64 {
+        f64::from(self.driven)
+    }
+
+    /// How long these take at free speed, s.
+    pub(super) fn free_time(&self) -> f64 {
+        f64::from(self.free_time)
     }
 }
 

@@ -433,9 +433,8 @@ fn may_pass(vehicle: &Vehicle) -> bool {
 fn leave_behind(scene: &Scene<'_>, track: Track, vehicle: &mut Vehicle, path: &mut Path) {
     let (length, speed) = (scene.tracks.length[track as usize], scene.tracks.speed[track as usize]);
     vehicle.s -= length;
-    path.driven += length;
     let row = scene.config.vehicle_type(vehicle.row);
-    path.free_time += length / row.free_speed(scene.config, vehicle.factor, speed);
+    path.add(length, length / row.free_speed(scene.config, vehicle.factor, speed));
     path.before = track;
 }
 

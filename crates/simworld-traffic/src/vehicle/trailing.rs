@@ -44,7 +44,7 @@ impl Trail {
             lane,
             length: vehicle.length,
             is_long: vehicle.is_long(),
-            start: path.driven,
+            start: path.driven(),
             rear: vehicle.s - vehicle.length(),
             v: vehicle.v,
         }
@@ -85,7 +85,7 @@ impl VehicleManager {
         let mut trails = std::mem::take(&mut self.trails);
         trails.retain_mut(|trail| {
             let driven =
-                self.find(tracks, trail.id).map(|(_, vehicle, path)| (path.driven + vehicle.s, vehicle.v));
+                self.find(tracks, trail.id).map(|(_, vehicle, path)| (path.driven() + vehicle.s, vehicle.v));
             if let Some((driven, v)) = driven {
                 (trail.rear, trail.v) = (driven - trail.start - f64::from(trail.length), v);
                 if trail.rear <= CLEARED {
