@@ -38,6 +38,12 @@ impl Ring {
         self.borders.push(border);
     }
 
+    /// Puts a corner before the i-th.
+    pub(crate) fn insert(&mut self, index: usize, corner: Point2, border: Border) {
+        self.corners.insert(index, corner);
+        self.borders.insert(index, border);
+    }
+
     /// Turns the ring so that it begins at the westernmost corner where one border ends and another begins, whatever the
     /// numbers of its streets.
     pub(crate) fn begin_at_least(&mut self) {

@@ -1,7 +1,9 @@
 //! Lots: blocks divided into pieces of land that each have a front to a street, and the greens between them.
 
 mod config;
+mod corner;
 mod divide;
+mod opposite;
 mod ribbon;
 mod slabs;
 

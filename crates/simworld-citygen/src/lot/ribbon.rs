@@ -1,10 +1,12 @@
 //! Lots along the streets of an open block, as deep as there is room.
 
-use simworld_core::geometry::Vector2;
+use simworld_core::geometry::Point2;
 use simworld_core::seed::Stream;
 
+use super::corner::{Corner, Front};
 use super::divide::{Divider, longest_front};
-use super::slabs::{Street, stations};
+use super::opposite::{Opposite, shared};
+use super::slabs::{Street, front, stations};
 use super::{GreenKind, stream_at};
 use crate::block::{Block, Border, Ring, Split};
 use crate::occupancy::Occupancy;
@@ -12,11 +14,10 @@ use crate::zoning::Zone;
 
 /// Fronts shorter than this have no lots, m.
 const SHORTEST_FRONT: f64 = 6.0;
-
+/// Where fronts that look at one another would have less than this each, the longer takes all, m.
+const SHALLOWEST: f64 = 8.0;
 /// A lot is not halved to less than this, m.
 const NARROWEST_HALF: f64 = 7.0;
-/// A corner less sharp than this is a bend of one street; the sine of the angle.
-const BEND: f64 = 0.3;
 
 /// Lines the streets of an open block with lots that touch neither `taken` nor one another.
 pub(super) fn line(
@@ -27,74 +28,89 @@ pub(super) fn line(
     ribbons: &mut Occupancy,
 ) {
     let ring = block.ring();
-    let mut fronts: Vec<(usize, f64)> = (0..ring.len())
+    let mut order: Vec<(usize, f64)> = (0..ring.len())
         .filter(|index| ring.borders[*index].is_street())
         .map(|index| (index, ring.edge(index).norm()))
         .filter(|(_, length)| *length >= SHORTEST_FRONT)
         .collect();
     // Longer streets take the corners.
-    fronts.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let mut depths = vec![0.0; ring.len()];
-    for (index, length) in fronts {
-        let along = ring.edge(index) / length;
-        let street = Street { border: ring.borders[index], start: ring.corners[index], along };
+    order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let street_of = |index: usize, length: f64| Street {
+        border: ring.borders[index],
+        start: ring.corners[index],
+        along: ring.edge(index) / length,
+    };
+    let mut fronts = vec![Front::default(); ring.len()];
+    for (index, length) in &order {
+        let is_built = enter(divider, &street_of(*index, *length), *length) != Zone::Park;
+        fronts[*index] = Front { length: *length, is_built, depths: [0.0; 2] };
+        if is_built {
+            divider.add_frontage(*length);
+        }
+    }
+    let opposite = Opposite::of(&ring, &fronts);
+    for (index, length) in order {
+        let street = street_of(index, length);
         // A stream for each front, so that a change elsewhere on the outskirts changes no lot here.
         divider.rng = stream_at(street.start, streams).rng();
-        let middle = street.start + along * (length * 0.5) + street.inwards() * 15.0;
-        let is_park = divider.enter(middle) == Zone::Park;
-        if !is_park {
-            divider.add_frontage(length);
-        }
+        let is_park = enter(divider, &street, length) == Zone::Park;
         let size = divider.size();
         let depth = size.depth.min(size.most_area / size.most_width);
-        let Some(row) = row(&ring, index, &street, depth, &depths) else { continue };
-        depths[index] = depth;
+        let ends = [false, true].map(|is_end| Corner::of(&ring, &fronts, (index, street.along), is_end));
+        let Some(row) = row(&street, ring.next(index), depth, &ends) else { continue };
+        let facing = opposite.facing(&row, &street, depth);
+        let least = SHALLOWEST.max(size.least_area / size.least_width);
         let mut lots = Vec::new();
+        let mut depths: Option<[f64; 2]> = None;
         for lot in stations(divider, &row, &street) {
+            let depth = shared(&facing, &lot, &street, depth, least);
+            depths = Some(depths.map_or([depth; 2], |[first, _]| [first, depth]));
             fit(&lot, &Site { street: &street, depth, taken }, ribbons, &mut lots);
         }
+        fronts[index].depths = depths.unwrap_or([depth; 2]);
         for lot in lots {
-            let (front, width) = longest_front(&lot);
-            if is_park {
-                divider.green(&lot, GreenKind::Park);
-            } else if width >= 4.0 && lot.area() >= size.least_area {
-                divider.file_lot(&lot, front);
-            } else {
-                divider.green(&lot, GreenKind::Leftover);
-            }
+            file(divider, &lot, is_park);
         }
     }
 }
 
-/// The strip along one edge: at a corner up to the street round it, or up to the row along that street if there is one
-/// already; at a bend up to the line between the two strips. `None` if nothing is left.
-fn row(ring: &Ring, index: usize, street: &Street, depth: f64, depths: &[f64]) -> Option<Ring> {
-    let (start, end) = (street.start, ring.next(index));
+/// Files a lot; one of a park, or too small or too narrow, is green.
+fn file(divider: &mut Divider<'_>, lot: &Ring, is_park: bool) {
+    let (front, width) = longest_front(lot);
+    if is_park {
+        divider.green(lot, GreenKind::Park);
+    } else if width >= 4.0 && lot.area() >= divider.size().least_area {
+        divider.file_lot(lot, front);
+    } else {
+        divider.green(lot, GreenKind::Leftover);
+    }
+}
+
+/// Sets the zone to that of the land along a street.
+fn enter(divider: &mut Divider<'_>, street: &Street, length: f64) -> Zone {
+    divider.enter(street.start + street.along * (length * 0.5) + street.inwards() * 15.0)
+}
+
+/// The strip along one street, up to the limits at its ends; `None` if nothing is left.
+fn row(street: &Street, end: Point2, depth: f64, ends: &[Option<Corner>; 2]) -> Option<Ring> {
+    let start = street.start;
     let deep = street.inwards() * depth;
+    let [before, after] =
+        [0, 1].map(|end| street.along * (ends[end].as_ref().map_or(0.0, Corner::lean) * depth));
     let mut row = Ring {
-        corners: [start, end, end + deep, start + deep].into_iter().collect(),
+        corners: [start, end, end + deep + after, start + deep - before].into_iter().collect(),
         borders: [street.border, Border::LAND, Border::LAND, Border::LAND].into_iter().collect(),
     };
-    let count = ring.len();
     let (mut kept, mut cut) = (Ring::default(), Ring::default());
-    for (neighbour, corner) in [((index + count - 1) % count, start), ((index + 1) % count, end)] {
-        let Some(along) = ring.edge(neighbour).try_normalize(1e-9) else { continue };
-        let sine = if corner == start { along.perp(&street.along) } else { street.along.perp(&along) };
-        if sine <= 1e-6 {
-            continue;
-        }
-        let outwards = Vector2::new(along.y, -along.x);
-        let (at, normal) = if sine < BEND {
-            let bisector = if corner == start { street.along - along } else { along - street.along };
-            let normal = Vector2::new(bisector.y, -bisector.x);
-            (corner, if corner == start { -normal } else { normal })
-        } else {
-            (corner - outwards * depths[neighbour], outwards)
-        };
+    for corner in ends.iter().flatten() {
+        let (at, normal) = corner.limit();
         if row.split(at, normal, &mut kept, &mut cut) == Split::Ahead {
             return None;
         }
         std::mem::swap(&mut row, &mut kept);
+    }
+    for corner in ends.iter().flatten() {
+        corner.label(&mut row);
     }
     Some(row)
 }
@@ -113,10 +129,10 @@ fn fit(lot: &Ring, site: &Site<'_>, ribbons: &mut Occupancy, lots: &mut Vec<Ring
         lots.push(lot);
         return;
     }
-    let (index, width) = longest_front(lot);
-    let middle = lot.corners[index] + lot.edge(index) * 0.5;
+    let Some((start, end)) = front(lot, site.street) else { return };
+    let middle = site.street.start + site.street.along * (0.5 * (start + end));
     let (mut left, mut right) = (Ring::default(), Ring::default());
-    if width >= NARROWEST_HALF * 2.0
+    if end - start >= NARROWEST_HALF * 2.0
         && lot.split(middle, site.street.along, &mut left, &mut right) == Split::Both
     {
         for half in [left, right] {
@@ -139,13 +155,10 @@ fn shorten(lot: &Ring, site: &Site<'_>, ribbons: &Occupancy) -> Option<Ring> {
         tested.extend(lot.corners.iter().map(|corner| middle + (corner - middle) * 0.99));
         site.taken.is_free(&tested) && ribbons.is_free(&tested)
     };
-    if is_free(lot) {
-        return Some(lot.clone());
-    }
     let (mut front, mut rear) = (Ring::default(), Ring::default());
-    for share in [0.7, 0.45] {
+    for share in [1.0, 0.7, 0.45] {
         let at = site.street.start + inwards * (site.depth * share);
-        if lot.split(at, inwards, &mut front, &mut rear) == Split::Both && is_free(&front) {
+        if lot.split(at, inwards, &mut front, &mut rear) != Split::Ahead && is_free(&front) {
             return Some(front);
         }
     }

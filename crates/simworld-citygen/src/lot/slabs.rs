@@ -129,7 +129,7 @@ pub(super) fn stations(divider: &mut Divider<'_>, row: &Ring, street: &Street) -
 }
 
 /// From where to where a row borders its street, as stations on the street's line, m.
-fn front(row: &Ring, street: &Street) -> Option<(f64, f64)> {
+pub(super) fn front(row: &Ring, street: &Street) -> Option<(f64, f64)> {
     (0..row.len())
         .filter(|index| row.borders[*index] == street.border)
         .map(|index| {

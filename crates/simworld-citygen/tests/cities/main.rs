@@ -14,6 +14,7 @@ mod every_seed_gives_a_sound_city;
 mod graph_edits_equal_rebuilds;
 mod graphs_are_planar;
 mod odd_streets_are_built_along;
+mod outskirts_are_built_up;
 mod same_seed_same_city;
 mod streets_are_graded;
 mod streets_have_names;
