@@ -3,14 +3,17 @@
 //! A vehicle on a lane that is too short for it keeps others out of the junction behind while it waits for the one before it.
 //! Several of them may wait for one another in a ring, each with its rear in the way of the next, and nobody can go back. Such
 //! lanes join junctions to a cluster, and whoever is to enter one of them needs the permit of the cluster, of which there is one.
-//! Whoever has it waits for nobody who waits for him: all others who are in the cluster have room behind it.
+//! Whoever has it waits for nobody who waits for him: all others who are in the cluster have room behind it. While he waits for room himself
+//! those come in who do not meet him; he goes on to another lane of the cluster when they are out again.
 
 use petgraph::unionfind::UnionFind;
 use serde::{Deserialize, Serialize};
 use simworld_core::net::{Lane, RoadNetwork};
 
+use super::leavers::FAR;
 use super::manager::{NONE, Vehicle, VehicleManager};
-use super::tracks::{Track, Tracks};
+use super::rings::rings_of;
+use super::tracks::{Track, Tracks, Way};
 use super::trailing::{SPARE, is_too_short};
 use super::types::is_long;
 use crate::TrafficConfig;
@@ -27,6 +30,9 @@ pub(super) const TOO_LONG: f64 = 60.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Clusters {
     by_lane: Vec<u32>,
+    /// Of rings of such lanes, numbered after all others: how many may be in there at once.
+    rings: Vec<usize>,
+    first_ring: u32,
     /// On a lane shorter than this even those who fit there need the permit: a car would have to wait for them, m.
     short: f64,
 }
@@ -36,13 +42,33 @@ impl Clusters {
         let lengths = || config.types.iter().map(|row| row.length);
         let longest = lengths().fold(0.0, f64::max);
         let car = lengths().filter(|length| !is_long(*length)).fold(0.0, f64::max);
-        Self { by_lane: joined(network, longest + SPARE), short: car + SPARE }
+        let (mut by_lane, short) = (joined(network, longest + SPARE, false), car + SPARE);
+        let first_ring = network.intersections.len() as u32;
+        let mut rings = Vec::new();
+        for ring in rings_of(&joined(network, short, true), network) {
+            ring.lanes.iter().for_each(|lane| by_lane[*lane] = first_ring + rings.len() as u32);
+            rings.push(ring.places - 1);
+        }
+        Self { by_lane, rings, first_ring, short }
     }
 
-    /// Whether a lane is in a cluster.
+    /// Whether a lane is in a cluster that is no ring.
     #[inline]
     pub(super) fn has(&self, lane: Track) -> bool {
-        self.by_lane[lane as usize] != NONE
+        self.by_lane[lane as usize] < self.first_ring
+    }
+
+    /// How many permits a cluster has whose ways go round, of which nobody gives way to those outside.
+    pub(super) fn places(&self, cluster: u32) -> Option<usize> {
+        let ring = cluster.checked_sub(self.first_ring)?;
+        self.rings.get(ring as usize).copied()
+    }
+
+    /// The cluster whose permit a vehicle needs for a way; who is in a ring needs none to go on in it.
+    pub(super) fn entered_by(&self, tracks: &Tracks, way: u32, vehicle: &Vehicle) -> Option<u32> {
+        let Way { from, to, .. } = tracks.ways[way as usize];
+        let cluster = self.of(tracks, to, vehicle)?;
+        (cluster < self.first_ring || self.by_lane[from as usize] != cluster).then_some(cluster)
     }
 
     /// The cluster whose permit a vehicle needs for a lane; `None` if it needs none.
@@ -54,10 +80,11 @@ impl Clusters {
     }
 }
 
-/// The clusters that lanes shorter than that make of the junctions, by lane.
-fn joined(network: &RoadNetwork, short: f64) -> Vec<u32> {
+/// The sets that lanes shorter than that make of the junctions, by lane: those of roundabouts, or all others.
+fn joined(network: &RoadNetwork, short: f64, roundabouts: bool) -> Vec<u32> {
     // Who is in a roundabout goes first all the way: it comes out again without a permit.
-    let joins = |lane: &Lane| lane.length < short && !network.roads[lane.road.index()].roundabout;
+    let joins =
+        |lane: &Lane| lane.length < short && network.roads[lane.road.index()].roundabout == roundabouts;
     let mut sets: UnionFind<u32> = UnionFind::new(network.intersections.len());
     for lane in network.lanes.iter().filter(|lane| joins(lane)) {
         sets.union(lane.from.0, lane.to.0);
@@ -79,6 +106,11 @@ pub(crate) struct Wish {
 impl Wish {
     pub(super) fn new(cluster: u32, vehicle: &Vehicle) -> Self {
         Self { cluster, stood: vehicle.stood, id: vehicle.id, way: vehicle.next }
+    }
+
+    /// Whether one may get the permit before it could go: of a ring others would go with it meanwhile.
+    pub(super) fn comes_early(&self, tracks: &Tracks) -> bool {
+        tracks.clusters.places(self.cluster).is_none()
     }
 }
 
@@ -102,14 +134,16 @@ impl Permit {
         self.id
     }
 
-    /// Whether it is of a cluster.
-    pub(super) fn is_of(&self, cluster: u32) -> bool {
-        self.cluster == cluster
-    }
-
     pub(super) fn is_for(&self, id: u32, cluster: u32) -> bool {
         self.id == id && self.cluster == cluster
     }
+}
+
+/// The permits of a cluster for whose end a vehicle waits that wants to enter a lane of it: all that there are, or those given after its own.
+/// Whoever has one of these was let in since he does not meet the way that the vehicle had then, and may meet another.
+pub(super) fn awaited(permits: &[Permit], cluster: u32, id: u32) -> impl Iterator<Item = &Permit> + Clone {
+    let own = permits.iter().position(|permit| permit.is_for(id, cluster));
+    permits[own.map_or(0, |own| own + 1)..].iter().filter(move |permit| permit.cluster == cluster)
 }
 
 impl VehicleManager {
@@ -142,11 +176,18 @@ impl VehicleManager {
         let wishes = std::mem::take(&mut self.wishes);
         for asking in wishes.chunk_by(|a, b| a.cluster == b.cluster) {
             let held = || permits.iter().filter(|permit| permit.cluster == asking[0].cluster);
+            if let Some(places) = tracks.clusters.places(asking[0].cluster) {
+                let free = places.saturating_sub(held().count());
+                permits.extend(asking.iter().take(free).map(|wish| Permit::new(wish.id, wish.cluster)));
+                continue;
+            }
             if held().any(|permit| self.lacks(tracks, config, permit).is_none()) {
                 continue;
             }
-            let mut let_in =
-                asking.iter().filter(|wish| held().all(|permit| !self.is_met(tracks, permit, wish)));
+            let mut let_in = asking.iter().filter(|wish| {
+                held().all(|permit| !self.is_met(tracks, permit, wish))
+                    && self.kept_out_by(tracks, wish).is_none()
+            });
             // Who keeps the holder of a permit from going on comes before all who have waited longer.
             let mut kept_by = let_in.clone();
             let in_the_way =
@@ -158,6 +199,27 @@ impl VehicleManager {
         self.permits = permits;
         self.wishes = wishes;
         self.wishes.clear();
+    }
+
+    /// The lane on which somebody outside has stood too long, and longer than one who wants to enter a cluster, for room that this one may take:
+    /// whoever is inside goes before him, so that nobody else comes in.
+    pub(super) fn kept_out_by(&self, tracks: &Tracks, wish: &Wish) -> Option<Track> {
+        self.patient_beyond(tracks, wish, tracks.lane_after(wish.way as usize), FAR)
+    }
+
+    /// The same behind a lane of the cluster, and behind those that follow it there.
+    fn patient_beyond(&self, tracks: &Tracks, wish: &Wish, lane: Track, far: usize) -> Option<Track> {
+        let is_inside = |lane: Track| tracks.clusters.by_lane[lane as usize] == wish.cluster;
+        tracks.exits(lane).iter().find_map(|(way, _)| {
+            let after = tracks.lane_after(*way as usize);
+            if is_inside(after) {
+                return far.checked_sub(1).and_then(|far| self.patient_beyond(tracks, wish, after, far));
+            }
+            let waits = |from: Track, other: &Vehicle| {
+                !is_inside(from) && other.id != wish.id && other.stood > wish.stood
+            };
+            self.who_is_kept_waiting(tracks, after, waits)
+        })
     }
 
     /// The lane for room on which the holder of a permit has long waited: it may wait for somebody before its cluster, who comes in if he

@@ -10,6 +10,7 @@
 //! rules of crossing hold.
 
 use super::clock::Moment;
+use super::clusters::{Wish, awaited};
 use super::junction::{PATIENT, is_room};
 use super::lane_change::{old_lane, stretch};
 use super::leavers::FAR;
@@ -213,15 +214,20 @@ impl VehicleManager {
         (vehicle.v < STANDING && vehicle.stood > LOCKED).then(lane)
     }
 
-    /// The lane on which somebody stands, or for which, who has the permit that one needs.
+    /// The lane on which somebody stands, or for which, who has the permit that one needs, or one that was given after one's own.
     fn holder_of_permit(&self, tracks: &Tracks, first: &Vehicle) -> Option<Track> {
-        let cluster = tracks.clusters.of(tracks, tracks.lane_after(first.next as usize), first)?;
-        if self.permits.iter().any(|permit| permit.is_for(first.id, cluster)) {
+        let cluster = tracks.clusters.entered_by(tracks, first.next, first)?;
+        let permits = awaited(&self.permits, cluster, first.id);
+        let places = tracks.clusters.places(cluster);
+        if places.is_some_and(|places| permits.clone().count() < places) {
             return None;
         }
-        let holders = self.permits.iter().filter(|permit| permit.is_of(cluster));
-        let mut holders = holders.filter_map(|permit| self.find(tracks, permit.id()));
-        holders.find_map(|found| self.stands_for(tracks, found))
+        let mut holders = permits.filter_map(|permit| self.find(tracks, permit.id()));
+        let holder = holders.find_map(|found| self.stands_for(tracks, found));
+        let has_own = || self.permits.iter().any(|permit| permit.is_for(first.id, cluster));
+        let is_kept_out = || places.is_none() && !has_own();
+        holder
+            .or_else(|| is_kept_out().then(|| self.kept_out_by(tracks, &Wish::new(cluster, first))).flatten())
     }
 
     /// The lane for room on which the first of a lane has long waited.
@@ -256,15 +262,22 @@ impl VehicleManager {
         after: Track,
         is_one: impl Fn(&Vehicle) -> bool,
     ) -> bool {
+        self.who_is_kept_waiting(tracks, after, |_, other| is_one(other)).is_some()
+    }
+
+    /// The lane on which somebody of whom that is true has stood too long for room on another.
+    pub(super) fn who_is_kept_waiting(
+        &self,
+        tracks: &Tracks,
+        after: Track,
+        is_one: impl Fn(Track, &Vehicle) -> bool,
+    ) -> Option<Track> {
         let place = tracks.network.lanes[after as usize].from;
-        let mut ways = tracks.network.intersections[place.index()].connections.iter();
-        ways.any(|way| {
-            let Way { from, to, .. } = tracks.ways[way.index()];
-            to == after
-                && self.queue(tracks, from).first().is_some_and(|other| {
-                    let waits = other.next == way.0 && !has_leave(other);
-                    waits && other.stood > PATIENT && is_one(other)
-                })
+        let ways = tracks.network.intersections[place.index()].connections.iter();
+        ways.map(|way| (way, &tracks.ways[way.index()])).find_map(|(way, Way { from, to, .. })| {
+            let first = self.queue(tracks, *from).first().filter(|_| *to == after)?;
+            let waits = first.next == way.0 && !has_leave(first) && first.stood > PATIENT;
+            (waits && is_one(*from, first)).then_some(*from)
         })
     }
 

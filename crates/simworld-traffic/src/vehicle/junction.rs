@@ -10,7 +10,7 @@ use simworld_core::net::Aspect;
 
 use super::claims::Claims;
 use super::clock::{Clock, Moment};
-use super::clusters::{TOO_LONG, Wish};
+use super::clusters::{TOO_LONG, Wish, awaited};
 use super::lookahead::BEFORE_LINE;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::Part;
@@ -269,7 +269,8 @@ impl Part {
                 continue; // one's turn comes after those before
             }
             if vehicle.stood > TOO_LONG && rank == 0 {
-                self.work.wishes.extend(wants_permit(scene, &vehicle));
+                let wish = wants_permit(scene, &vehicle);
+                self.work.wishes.extend(wish.filter(|wish| wish.comes_early(scene.tracks)));
             }
             let track = self.layout(scene.tracks).tracks[lane];
             let is_free = self.leaves_room_to_the_patient(scene, &vehicle) && self.lets_in(scene, &vehicle);
@@ -358,7 +359,7 @@ fn may_enter(
             sight.walkers[strip.crossing as usize] == 0
                 && (siren || sight.waiting[strip.crossing as usize] == 0)
         })
-        && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
+        && ((has_room(scene, way, vehicle) && !lets_out(scene, vehicle)) || may_pass(scene, vehicle))
         && part.finds_gap(scene, vehicle, (distance, rank), overtaken)
 }
 
@@ -398,10 +399,19 @@ fn at_yellow(config: &TrafficConfig, vehicle: &Vehicle) -> f64 {
 
 /// The wish of one who would enter a short lane between junctions and has no permit.
 fn wants_permit(scene: &Scene<'_>, vehicle: &Vehicle) -> Option<Wish> {
-    let lane = scene.tracks.lane_after(vehicle.next as usize);
-    let cluster = scene.tracks.clusters.of(scene.tracks, lane, vehicle)?;
+    let cluster = scene.tracks.clusters.entered_by(scene.tracks, vehicle.next, vehicle)?;
     let has_permit = scene.permits.iter().any(|permit| permit.is_for(vehicle.id, cluster));
     (!has_permit).then(|| Wish::new(cluster, vehicle))
+}
+
+/// Whether one who has the permit of a cluster lets those out first who were let in after it; in a ring there is room for all of them.
+fn lets_out(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+    let clusters = &scene.tracks.clusters;
+    let entered = clusters.entered_by(scene.tracks, vehicle.next, vehicle);
+    entered.filter(|cluster| clusters.places(*cluster).is_none()).is_some_and(|cluster| {
+        let has_permit = scene.permits.iter().any(|permit| permit.is_for(vehicle.id, cluster));
+        has_permit && awaited(scene.permits, cluster, vehicle.id).next().is_some()
+    })
 }
 
 /// Whether a vehicle may enter without room behind the junction, because it is in a lock.

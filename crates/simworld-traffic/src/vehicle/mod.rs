@@ -36,6 +36,7 @@ mod patience;
 mod perception;
 mod precedence;
 mod reroute;
+mod rings;
 mod saved;
 mod sirens;
 mod slabs;

@@ -219,6 +219,173 @@ fn who_needs_the_permit_of_one_on_a_way_waits_for_that_for_which_he_stands() {
     assert_eq!(vehicles.holder_of_permit(&tracks, &first), None, "he goes");
 }
 
+/// Three junctions in a row with less than a car between them, and drivers without anybody.
+fn near_junctions_in_a_row() -> (Tracks, TrafficConfig, VehicleManager) {
+    use simworld_core::geometry::Point2;
+    use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+    let mut plan = StreetPlan::default();
+    plan.nodes.extend([-100.0, 0.0, 16.0, 32.0, 132.0].map(|x| Point2::new(x, 0.0)));
+    plan.streets.extend((0..4).map(|node| Street::simple(node, node + 1)));
+    plan.nodes.extend([0.0, 16.0, 32.0].map(|x| Point2::new(x, 100.0)));
+    plan.streets.extend((1..4).map(|node| Street::simple(node, node + 4)));
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+    let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
+    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+    let vehicles = VehicleManager::new(&tracks);
+    (tracks, config, vehicles)
+}
+
+#[test]
+fn who_has_a_permit_lets_out_first_who_was_let_in_after_him() {
+    use simworld_core::net::{Alone, Aspect};
+    use simworld_core::seed::Seed;
+
+    use super::super::clusters::Permit;
+    use super::super::manager::Sight;
+
+    let (tracks, config, mut vehicles) = near_junctions_in_a_row();
+    let car = |id, s| Vehicle { stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+    let is_inside = |lane: Track| tracks.clusters.of(&tracks, lane, &car(0, 0.0)).is_some();
+    let leads_on = |way: &usize| is_inside(tracks.ways[*way].from) && is_inside(tracks.lane_after(*way));
+    let own = (0..tracks.ways.len()).find(leads_on).expect("short lanes lead into one another");
+    let (lane, after) = (tracks.ways[own].from, tracks.lane_after(own));
+    let road = |lane: Track| tracks.network.lanes[lane as usize].road;
+    let is_opposite = |other: &Track| road(*other) == road(lane) && *other != lane;
+    let opposite = (0..tracks.lanes as Track).find(is_opposite).expect("it is a two-way street");
+    let put = |vehicles: &mut VehicleManager, lane: Track, id: u32, next: u32| {
+        let one = Vehicle { next, ..car(id, tracks.length[lane as usize] - 0.5) };
+        vehicles.whereabouts.push(lane);
+        vehicles.storage.add(lane, &one, &config);
+        vehicles.push(&tracks, lane, one, Path::new(lane, NONE, 0.0, 0.0));
+        one
+    };
+    let first = put(&mut vehicles, lane, 0, own as u32);
+    put(&mut vehicles, opposite, 1, NONE);
+    let cluster = tracks.clusters.of(&tracks, after, &first).expect("it is one");
+    let mut counters = Counters::default();
+    let mut step = 0_u32;
+    let mut go = |vehicles: &mut VehicleManager, permits: &[u32]| {
+        vehicles.permits = permits.iter().map(|id| Permit::new(*id, cluster)).collect();
+        let (aspects, shown) = ([Aspect::Green; 64], [9.0; 64]);
+        let sight =
+            Sight { aspects: &aspects, shown: &shown, walkers: &[0; 64], waiting: &[0; 64], obstacles: &[] };
+        for _ in 0..5 {
+            let at = Moment { now: f64::from(step) * 0.1, dt: 0.1, step: u64::from(step) };
+            vehicles.step(&tracks, &config, Seed(1).stream("cars"), sight, at, &mut counters, &Alone);
+            step += 1;
+        }
+        vehicles.queue(&tracks, lane).first().is_none_or(has_leave)
+    };
+    assert!(!go(&mut vehicles, &[0, 1]), "the other is still there");
+    let first = vehicles.queue(&tracks, lane)[0];
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &first), Some(opposite), "a lock is seen");
+    assert!(go(&mut vehicles, &[1, 0]), "the other came first");
+}
+
+#[test]
+fn nobody_is_let_in_who_would_take_the_room_of_one_who_has_stood_too_long_for_it() {
+    let (tracks, config, mut vehicles) = near_junctions_in_a_row();
+    let car = |id, s| Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s);
+    let is_inside = |lane: Track| tracks.clusters.of(&tracks, lane, &car(0, 0.0)).is_some();
+    let enters = |way: &usize| !is_inside(tracks.ways[*way].from) && is_inside(tracks.lane_after(*way));
+    // Of the lanes behind the last junction of the row: one behind those in between, to which a side street leads as well.
+    let leaves = |way: &usize| is_inside(tracks.ways[*way].from) && !is_inside(tracks.lane_after(*way));
+    let node = |lane: Track| tracks.network.lanes[lane as usize].to;
+    let meets = |way: &usize, other: &usize| {
+        let (own, lane) = (tracks.lane_after(*other), tracks.ways[*other].from);
+        own == tracks.lane_after(*way) && !is_inside(lane) && lane != tracks.ways[*way].from
+    };
+    let (own, other) = (0..tracks.ways.len())
+        .filter(leaves)
+        .find_map(|way| {
+            let other = (0..tracks.ways.len()).find(|other| meets(&way, other))?;
+            let before = |own: &usize| enters(own) && tracks.lane_after(*own) == tracks.ways[way].from;
+            let own = (0..tracks.ways.len()).find(before)?;
+            (node(tracks.ways[own].from) != node(tracks.ways[other].from)).then_some((own, other))
+        })
+        .expect("a side street leads to where those go who come through");
+    let mut put = |way: usize, stood: f64| {
+        let (id, lane) = (vehicles.numbers() as u32, tracks.ways[way].from);
+        let s = tracks.length[lane as usize] - 0.5;
+        let one = Vehicle { next: way as u32, stood, ..car(id, s) };
+        vehicles.whereabouts.push(lane);
+        vehicles.push(&tracks, lane, one, Path::new(lane, NONE, 0.0, 0.0));
+        (lane, one)
+    };
+    let ((_, asks), (side, _)) = (put(own, 60.0), put(other, PATIENT + 60.0));
+    let cluster = tracks.clusters.of(&tracks, tracks.lane_after(own), &asks).expect("it is one");
+    let let_in = |vehicles: &mut VehicleManager| {
+        vehicles.permits.clear();
+        vehicles.wishes.push(Wish::new(cluster, &asks));
+        vehicles.give_permits(&tracks, &config, 0.1);
+        !vehicles.permits.is_empty()
+    };
+    assert!(!let_in(&mut vehicles), "the room is kept");
+    assert_eq!(vehicles.holder_of_permit(&tracks, &asks), Some(side), "a lock is seen");
+    vehicles.both_mut(&tracks, side).0[0].stood = PATIENT - 60.0;
+    assert!(let_in(&mut vehicles), "nobody has stood too long");
+    assert_eq!(vehicles.holder_of_permit(&tracks, &asks), None);
+}
+
+#[test]
+fn a_ring_of_short_lanes_keeps_a_place_free() {
+    use simworld_core::geometry::Point2;
+    use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
+
+    let around = |radius: f64| {
+        let mut plan = StreetPlan::default();
+        let section = plan.add_section(CrossSection::plain(1, 0, 4.5, 0.0));
+        let at = |index: usize, far: f64| {
+            let (y, x) = (index as f64 * std::f64::consts::TAU / 3.0).sin_cos();
+            Point2::new(x * far, y * far)
+        };
+        plan.nodes.extend((0..3).map(|index| at(index, radius)));
+        plan.nodes.extend((0..3).map(|index| at(index, 150.0)));
+        for index in 0..3 {
+            let ring = Street::simple(index, (index + 1) % 3);
+            plan.streets.push(Street { section, roundabout: true, ..ring });
+            plan.streets.push(Street::simple(index, index + 3));
+        }
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let vehicles = VehicleManager::new(&tracks);
+        (tracks, config, vehicles)
+    };
+    let (tracks, config, mut vehicles) = around(12.0);
+    let car = |id, s| Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s);
+    let enters = |way: &usize| {
+        tracks.is_in_ring(tracks.lane_after(*way)) && !tracks.is_in_ring(tracks.ways[*way].from)
+    };
+    let mut from: Vec<Track> = Vec::new();
+    for way in (0..tracks.ways.len()).filter(enters) {
+        let lane = tracks.ways[way].from;
+        let one = Vehicle { next: way as u32, ..car(from.len() as u32, tracks.length[lane as usize] - 0.5) };
+        vehicles.whereabouts.push(lane);
+        vehicles.push(&tracks, lane, one, Path::new(lane, NONE, 0.0, 0.0));
+        let cluster = tracks.clusters.entered_by(&tracks, way as u32, &one).expect("the ring is one");
+        assert_eq!(tracks.clusters.places(cluster), Some(2));
+        vehicles.wishes.push(Wish::new(cluster, &one));
+        from.push(lane);
+    }
+    assert_eq!(from.len(), 3, "each arm leads in");
+    vehicles.give_permits(&tracks, &config, 0.1);
+    assert_eq!(vehicles.permits.iter().map(|permit| permit.id()).collect::<Vec<_>>(), [0, 1]);
+    let inside =
+        |way: &usize| [tracks.ways[*way].from, tracks.lane_after(*way)].map(|lane| tracks.is_in_ring(lane));
+    let round = (0..tracks.ways.len()).find(|way| inside(way) == [true; 2]).expect("it leads round");
+    assert_eq!(
+        tracks.clusters.entered_by(&tracks, round as u32, &car(0, 0.0)),
+        None,
+        "who is in there goes on"
+    );
+    let (tracks, config, _) = around(40.0);
+    let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, 0, 0.0);
+    let needed = |way: u32| tracks.clusters.entered_by(&tracks, way, &car);
+    assert!((0..tracks.ways.len() as u32).all(|way| needed(way).is_none()), "there is room on each lane");
+}
+
 #[test]
 fn every_ring_is_found_once() {
     // Two rings, 0-1-2 and 5-6, a tail 3-4 into the first, and 8 that waits for a lane which moves.
