@@ -206,8 +206,8 @@ impl RoadNetwork {
             let mut all_lists = lists.chain([&plan.groups[..]]);
             match () {
                 () if plan.intersection.index() >= self.intersections.len() => LOST,
-                () if !all_lists.clone().all(|list| known(list)) => LOST,
-                () if !all_lists.all(|list| is_ascending(list)) => DISORDERED,
+                () if !all_lists.clone().all(known) => LOST,
+                () if !all_lists.all(is_ascending) => DISORDERED,
                 () if !(plan.offset.is_finite() && plan.phases.iter().all(is_timed)) => SIZELESS,
                 () => None,
             }

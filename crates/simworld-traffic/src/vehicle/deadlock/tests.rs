@@ -330,15 +330,14 @@ fn nobody_is_let_in_who_would_take_the_room_of_one_who_has_stood_too_long_for_it
 
 #[test]
 fn a_ring_of_short_lanes_keeps_a_place_free() {
-    use simworld_core::geometry::Point2;
+    use simworld_core::geometry::{Point2, direction};
     use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, Street, StreetPlan};
 
     let around = |radius: f64| {
         let mut plan = StreetPlan::default();
         let section = plan.add_section(CrossSection::plain(1, 0, 4.5, 0.0));
         let at = |index: usize, far: f64| {
-            let (y, x) = (index as f64 * std::f64::consts::TAU / 3.0).sin_cos();
-            Point2::new(x * far, y * far)
+            Point2::origin() + direction(index as f64 * std::f64::consts::TAU / 3.0) * far
         };
         plan.nodes.extend((0..3).map(|index| at(index, radius)));
         plan.nodes.extend((0..3).map(|index| at(index, 150.0)));
@@ -371,7 +370,7 @@ fn a_ring_of_short_lanes_keeps_a_place_free() {
     }
     assert_eq!(from.len(), 3, "each arm leads in");
     vehicles.give_permits(&tracks, &config, 0.1);
-    assert_eq!(vehicles.permits.iter().map(|permit| permit.id()).collect::<Vec<_>>(), [0, 1]);
+    assert_eq!(vehicles.permits.iter().map(super::super::clusters::Permit::id).collect::<Vec<_>>(), [0, 1]);
     let inside =
         |way: &usize| [tracks.ways[*way].from, tracks.lane_after(*way)].map(|lane| tracks.is_in_ring(lane));
     let round = (0..tracks.ways.len()).find(|way| inside(way) == [true; 2]).expect("it leads round");
