@@ -9,8 +9,9 @@ use simworld_core::id::LaneId;
 use simworld_core::seed::Stream;
 
 use super::lookahead::{Lane, acceleration};
-use super::manager::{NONE, Path, Scene, Vehicle, VehicleManager};
+use super::manager::{NONE, Scene, Vehicle, VehicleManager};
 use super::part::Part;
+use super::path::Path;
 use super::tracks::{Track, Tracks};
 use super::{CarFollowing, VehicleKind};
 use crate::takeover::{ControlError, Drive, LaneWish};

@@ -62,7 +62,8 @@ mod tests {
     use simworld_core::seed::Seed;
 
     use super::super::clock::Moment;
-    use super::super::manager::{Path, Sight, VehicleManager};
+    use super::super::manager::{Sight, VehicleManager};
+    use super::super::path::Path;
     use super::*;
     use crate::{Counters, Leg, Route, TrafficConfig};
 

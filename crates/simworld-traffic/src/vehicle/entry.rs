@@ -2,7 +2,8 @@
 
 use super::VehicleKind;
 use super::closures::Closures;
-use super::manager::{EXIT, NONE, Path, Vehicle, VehicleManager};
+use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
+use super::path::Path;
 use super::sirens::Sirens;
 use super::tracks::{Track, Tracks};
 use crate::demand::Departure;

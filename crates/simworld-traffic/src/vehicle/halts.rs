@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, VecDeque};
 use serde::{Deserialize, Serialize};
 use simworld_core::id::LaneId;
 
-use super::manager::{NONE, Path, STANDING, Vehicle, VehicleManager};
+use super::manager::{NONE, STANDING, Vehicle, VehicleManager};
+use super::path::Path;
 use super::tracks::{Track, Tracks};
 use crate::line::Stop;
 use crate::{Counters, Leg, TrafficConfig, TripEnd};

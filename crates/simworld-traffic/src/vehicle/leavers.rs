@@ -97,7 +97,8 @@ mod tests {
 
     use super::super::clock::Moment;
     use super::super::junction::is_room;
-    use super::super::manager::{EXIT, NONE, Path, Sight};
+    use super::super::manager::{EXIT, NONE, Sight};
+    use super::super::path::Path;
     use super::*;
     use crate::{Counters, TrafficConfig};
 

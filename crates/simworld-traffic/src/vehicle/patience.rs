@@ -127,7 +127,8 @@ mod tests {
     use simworld_core::seed::Seed;
 
     use super::super::clock::Moment;
-    use super::super::manager::{Path, Sight};
+    use super::super::manager::Sight;
+    use super::super::path::Path;
     use super::*;
     use crate::{TrafficConfig, TripEnd};
 

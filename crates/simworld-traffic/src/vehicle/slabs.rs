@@ -8,7 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::manager::{Path, Vehicle};
+use super::manager::Vehicle;
+use super::path::Path;
 
 /// How many sizes of slabs there are, that of none included; the largest has room for more than any lane.
 const SIZES: usize = 40;

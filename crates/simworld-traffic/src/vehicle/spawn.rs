@@ -3,7 +3,8 @@
 use simworld_core::seed::{Stream, StreamRng};
 
 use super::VehicleKind;
-use super::manager::{NONE, Path, Vehicle, VehicleManager};
+use super::manager::{NONE, Vehicle, VehicleManager};
+use super::path::Path;
 use super::sirens::Sirens;
 use super::tracks::{Track, Tracks};
 use super::types::{TypeIndex, VehicleType, draw_type};

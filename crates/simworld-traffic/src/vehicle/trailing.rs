@@ -8,8 +8,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::manager::{NONE, Path, Vehicle, VehicleManager};
+use super::manager::{NONE, Vehicle, VehicleManager};
 use super::part::CLEARED;
+use super::path::Path;
 use super::tail::Tail;
 use super::tracks::{Track, Tracks};
 

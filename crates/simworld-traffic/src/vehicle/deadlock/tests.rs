@@ -77,7 +77,7 @@ fn who_changes_out_of_a_lane_holds_up_who_changes_into_the_one_beyond() {
 /// Two parallel streets with cross streets between them on which a bus does not fit, and drivers without anybody.
 fn near_junctions() -> (Tracks, TrafficConfig, VehicleManager) {
     use simworld_core::geometry::Point2;
-    use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
+    use simworld_core::net::{Street, StreetPlan};
 
     let mut plan = StreetPlan::default();
     for y in [0.0, 16.0] {
@@ -87,11 +87,7 @@ fn near_junctions() -> (Tracks, TrafficConfig, VehicleManager) {
     plan.streets.extend((0..3).map(|node| Street::simple(node, node + 3)));
     plan.nodes.push(Point2::new(130.0, -100.0));
     plan.streets.push(Street::simple(1, 6));
-    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
-    let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
-    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
-    let vehicles = VehicleManager::new(&tracks);
-    (tracks, config, vehicles)
+    without_drivers(&plan)
 }
 
 #[test]
@@ -219,21 +215,28 @@ fn who_needs_the_permit_of_one_on_a_way_waits_for_that_for_which_he_stands() {
     assert_eq!(vehicles.holder_of_permit(&tracks, &first), None, "he goes");
 }
 
+/// The tracks of a plan whose near junctions are not joined, and nobody on them.
+fn without_drivers(plan: &simworld_core::net::StreetPlan) -> (Tracks, TrafficConfig, VehicleManager) {
+    use simworld_core::net::{NetworkConfig, RoadNetwork};
+
+    let network = RoadNetwork::derive(plan, &NetworkConfig::default()).expect("it is a plan");
+    let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
+    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+    let vehicles = VehicleManager::new(&tracks);
+    (tracks, config, vehicles)
+}
+
 /// Three junctions in a row with less than a car between them, and drivers without anybody.
 fn near_junctions_in_a_row() -> (Tracks, TrafficConfig, VehicleManager) {
     use simworld_core::geometry::Point2;
-    use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
+    use simworld_core::net::{Street, StreetPlan};
 
     let mut plan = StreetPlan::default();
     plan.nodes.extend([-100.0, 0.0, 16.0, 32.0, 132.0].map(|x| Point2::new(x, 0.0)));
     plan.streets.extend((0..4).map(|node| Street::simple(node, node + 1)));
     plan.nodes.extend([0.0, 16.0, 32.0].map(|x| Point2::new(x, 100.0)));
     plan.streets.extend((1..4).map(|node| Street::simple(node, node + 4)));
-    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
-    let config = TrafficConfig { join_nearer: 0.0, ..TrafficConfig::default() };
-    let tracks = Tracks::new(std::sync::Arc::new(network), &config);
-    let vehicles = VehicleManager::new(&tracks);
-    (tracks, config, vehicles)
+    without_drivers(&plan)
 }
 
 #[test]

@@ -7,7 +7,8 @@ use simworld_core::seed::Seed;
 
 use super::super::beside::Pairs;
 use super::super::clock::Moment;
-use super::super::manager::{Path, Sight, VehicleManager};
+use super::super::manager::{Sight, VehicleManager};
+use super::super::path::Path;
 use super::super::tracks::Tracks;
 use super::*;
 use crate::{Counters, TrafficConfig};
