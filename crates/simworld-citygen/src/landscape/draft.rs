@@ -44,16 +44,30 @@ pub(super) fn build(spec: &SceneSpec, seed: Seed) -> Result<Landscape, Landscape
         _ => wishes::along_roads(spec, &library),
     };
     let mut scale = 1.0;
-    let mut most = 0;
+    let (mut most, mut before) = (0, None);
     for _ in 0..TRIES {
         let half = ((HALF + HALF_FOR_A_HOUSE * lots.len() as f64) * scale).min(MOST_HALF);
         match Draft::begin(spec, half, &lots, scale, stream)? {
             Ok(draft) => return draft.finish(spec, &library, stream),
-            Err(placed) => most = most.max(placed),
+            Err(full) => {
+                most = most.max(full.placed);
+                // What can grow no more is not tried again.
+                if before.replace(full) == Some(full) {
+                    break;
+                }
+            }
         }
         scale *= 1.3;
     }
     Err(LandscapeError::TooMany { wanted: lots.len(), most })
+}
+
+/// A place without room: half of its side and the length of its lanes, m, and how many lots found room along them.
+#[derive(Clone, Copy, PartialEq)]
+struct Full {
+    half: f64,
+    lanes: f64,
+    placed: usize,
 }
 
 /// A place with its land, its roads and what stands along them.
@@ -67,14 +81,14 @@ struct Draft {
 }
 
 impl Draft {
-    /// The land with its roads and lots, or how many lots found room.
+    /// The land with its roads and lots, or what has no room for these.
     fn begin(
         spec: &SceneSpec,
         half: f64,
         wished: &[Wish],
         scale: f64,
         stream: Stream,
-    ) -> Result<Result<Self, usize>, LandscapeError> {
+    ) -> Result<Result<Self, Full>, LandscapeError> {
         let mut waters = spec.features.waters.clone();
         if waters.is_empty() && spec.kind != SceneKind::Island {
             // A pond, or the lake that a wilderness has.
@@ -100,7 +114,8 @@ impl Draft {
         // Where one finds no room the rest need not be tried.
         let placed = wished.iter().take_while(|wish| builder.place(wish)).count();
         if placed < wished.len() {
-            return Ok(Err(placed));
+            let lanes = network.lanes.iter().map(|lane| lane.length).sum();
+            return Ok(Err(Full { half, lanes, placed }));
         }
         let lots = builder.lots;
         for lot in &lots {
