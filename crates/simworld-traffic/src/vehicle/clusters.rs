@@ -177,8 +177,7 @@ impl VehicleManager {
         for asking in wishes.chunk_by(|a, b| a.cluster == b.cluster) {
             let held = || permits.iter().filter(|permit| permit.cluster == asking[0].cluster);
             if let Some(places) = tracks.clusters.places(asking[0].cluster) {
-                let free = places.saturating_sub(held().count());
-                permits.extend(asking.iter().take(free).map(|wish| Permit::new(wish.id, wish.cluster)));
+                self.let_into_ring(tracks, &mut permits, asking, places);
                 continue;
             }
             if held().any(|permit| self.lacks(tracks, config, permit).is_none()) {
@@ -220,6 +219,36 @@ impl VehicleManager {
             };
             self.who_is_kept_waiting(tracks, after, waits)
         })
+    }
+
+    /// Gives the free places of a ring to those who have waited longest. Who needs more of them than there are keeps them for himself: else he
+    /// would never have them all.
+    fn let_into_ring(&self, tracks: &Tracks, permits: &mut Vec<Permit>, asking: &[Wish], places: usize) {
+        for Wish { cluster, id, .. } in asking {
+            let held = permits.iter().filter(|permit| permit.cluster == *cluster);
+            if !self.has_place(tracks, held, *id, places) {
+                break;
+            }
+            permits.push(Permit::new(*id, *cluster));
+        }
+    }
+
+    /// Whether there is room for one more in a ring of so many places, of which others have permits.
+    pub(super) fn has_place<'a>(
+        &self,
+        tracks: &Tracks,
+        permits: impl Iterator<Item = &'a Permit>,
+        id: u32,
+        places: usize,
+    ) -> bool {
+        let taken: usize = permits.map(|permit| self.needs(tracks, permit.id, places)).sum();
+        taken + self.needs(tracks, id, places) <= places
+    }
+
+    /// How many of the places of a ring one takes: who is longer than a car stands in two of its junctions.
+    fn needs(&self, tracks: &Tracks, id: u32, places: usize) -> usize {
+        let is_long = self.find(tracks, id).is_some_and(|(_, vehicle, _)| vehicle.is_long());
+        (1 + usize::from(is_long)).min(places)
     }
 
     /// The lane for room on which the holder of a permit has long waited: it may wait for somebody before its cluster, who comes in if he

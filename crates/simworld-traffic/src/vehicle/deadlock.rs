@@ -175,7 +175,8 @@ impl VehicleManager {
             let until = if is_shared(conflict.way) { conflict.other.passed() } else { f64::INFINITY };
             (conflict.way, until)
         });
-        let tight = tracks.tight[way].iter().map(|way| (*way, f64::INFINITY));
+        let tight = tracks.tight[way].iter().filter(|way| !is_shared(**way));
+        let tight = tight.map(|way| (*way, f64::INFINITY));
         let stands_on = |(way, until): (u32, f64)| {
             if let Some(lane) = self.who_trails_on(tracks, way, until) {
                 return Some(lane);
@@ -220,7 +221,7 @@ impl VehicleManager {
         let cluster = tracks.clusters.entered_by(tracks, first.next, first)?;
         let permits = awaited(&self.permits, cluster, first.id);
         let places = tracks.clusters.places(cluster);
-        if places.is_some_and(|places| permits.clone().count() < places) {
+        if places.is_some_and(|places| self.has_place(tracks, permits.clone(), first.id, places)) {
             return None;
         }
         let mut holders = permits.filter_map(|permit| self.find(tracks, permit.id()));
@@ -347,7 +348,7 @@ impl VehicleManager {
     }
 
     /// Lets the first of a lane take another way that has room, if there is one; its route leads to the same end.
-    fn turn_elsewhere(&mut self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> bool {
+    pub(super) fn turn_elsewhere(&mut self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> bool {
         let Some(first) = self.queue(tracks, lane).first().copied().filter(has_long_waited) else {
             return false;
         };

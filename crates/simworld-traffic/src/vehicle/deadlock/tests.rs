@@ -316,7 +316,7 @@ fn nobody_is_let_in_who_would_take_the_room_of_one_who_has_stood_too_long_for_it
         vehicles.push(&tracks, lane, one, Path::new(lane, NONE, 0.0, 0.0));
         (lane, one)
     };
-    let ((_, asks), (side, _)) = (put(own, 60.0), put(other, PATIENT + 60.0));
+    let ((_, asks), (side, _)) = (put(own, PATIENT * 0.25), put(other, PATIENT * 1.5));
     let cluster = tracks.clusters.of(&tracks, tracks.lane_after(own), &asks).expect("it is one");
     let let_in = |vehicles: &mut VehicleManager| {
         vehicles.permits.clear();
@@ -326,7 +326,7 @@ fn nobody_is_let_in_who_would_take_the_room_of_one_who_has_stood_too_long_for_it
     };
     assert!(!let_in(&mut vehicles), "the room is kept");
     assert_eq!(vehicles.holder_of_permit(&tracks, &asks), Some(side), "a lock is seen");
-    vehicles.both_mut(&tracks, side).0[0].stood = PATIENT - 60.0;
+    vehicles.both_mut(&tracks, side).0[0].stood = PATIENT * 0.5;
     assert!(let_in(&mut vehicles), "nobody has stood too long");
     assert_eq!(vehicles.holder_of_permit(&tracks, &asks), None);
 }
@@ -373,7 +373,27 @@ fn a_ring_of_short_lanes_keeps_a_place_free() {
     }
     assert_eq!(from.len(), 3, "each arm leads in");
     vehicles.give_permits(&tracks, &config, 0.1);
-    assert_eq!(vehicles.permits.iter().map(super::super::clusters::Permit::id).collect::<Vec<_>>(), [0, 1]);
+    let let_in = |vehicles: &VehicleManager| -> Vec<u32> {
+        vehicles.permits.iter().map(super::super::clusters::Permit::id).collect()
+    };
+    assert_eq!(let_in(&vehicles), [0, 1]);
+    // Who is longer than a car takes two places, and nobody takes the first of them before him.
+    let bus = config.types.iter().map(|row| row.length as f32).fold(0.0, f32::max);
+    for (long, expected) in [(0, vec![0]), (1, vec![0]), (2, vec![0, 1])] {
+        let mut vehicles = vehicles.clone();
+        vehicles.permits.clear();
+        vehicles.wishes = from
+            .iter()
+            .zip(0..)
+            .map(|(lane, id)| {
+                let first = &mut vehicles.both_mut(&tracks, *lane).0[0];
+                first.length = if id == long { bus } else { car(id, 0.0).length };
+                Wish::new(tracks.clusters.entered_by(&tracks, first.next, first).expect("it leads in"), first)
+            })
+            .collect();
+        vehicles.give_permits(&tracks, &config, 0.1);
+        assert_eq!(let_in(&vehicles), expected, "the bus is {long}");
+    }
     let inside =
         |way: &usize| [tracks.ways[*way].from, tracks.lane_after(*way)].map(|lane| tracks.is_in_ring(lane));
     let round = (0..tracks.ways.len()).find(|way| inside(way) == [true; 2]).expect("it leads round");
