@@ -272,7 +272,7 @@ impl VehicleManager {
         self.scene(tracks, config, nothing, streams, at).choose(weights, vehicle, path, lane)
     }
 
-    fn scene<'a>(
+    pub(super) fn scene<'a>(
         &'a self,
         tracks: &'a Tracks,
         config: &'a TrafficConfig,
@@ -361,6 +361,7 @@ impl VehicleManager {
         workers: &dyn Workers,
     ) {
         self.unlock(tracks, config, at, counters);
+        self.turn_off(tracks, config, at, counters);
         self.think_over(tracks, config, streams, at, counters);
         self.steer(tracks, config, streams);
         self.come_round(tracks, config, streams);

@@ -1,17 +1,24 @@
 //! Patience: who stands too long in a lane that does not lead on takes a way that does; if none does, he leaves the map by one that there is.
+//! Who stands far too long at his line, whatever for, turns to where there is room. Where a queue takes up side streets all along, little of
+//! what moves at its head comes to those at its end, and each at a line keeps all behind him from going elsewhere.
 
 use simworld_core::id::LaneId;
 
+use super::clock::Moment;
+use super::deadlock::is_due;
 use super::leading::way_off;
 use super::manager::{NONE, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
-use crate::{Counters, Leg, Route};
+use crate::{Counters, Leg, Route, TrafficConfig};
 
 /// Who stands in a lane that does not lead on for so long looks for another way, s.
 pub(super) const PATIENCE: f64 = 40.0;
 /// If a lane beside leads to the end of his route, he leaves the map only after so long, s, and looks for another way once in so many.
 const FORBEARANCE: f64 = 10.0 * PATIENCE;
 const AGAIN: f64 = 5.0;
+/// Who has stood at his line for so long takes another way, s; looked for once in so many.
+const FAR_TOO_LONG: f64 = 400.0;
+const SELDOM: f64 = 10.0;
 /// Nobody makes longer steps, s.
 const STEP: f64 = 1.0;
 
@@ -30,6 +37,27 @@ impl VehicleManager {
                 || ((stood > FORBEARANCE || !self.is_led_beside(tracks, lane, goal))
                     && ways.any(|way| self.leave_by(tracks, lane, way.0, goal)));
             counters.rerouted += u64::from(is_led);
+        }
+        self.stuck = stuck;
+    }
+
+    /// Those who have stood far too long at their lines take a way that has room, if there is one, and their route anew from there.
+    pub(super) fn turn_off(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        at: Moment,
+        counters: &mut Counters,
+    ) {
+        if !is_due(at.step, at.dt, SELDOM) {
+            return;
+        }
+        let mut stuck = std::mem::take(&mut self.stuck);
+        let is_stuck = |first: &Vehicle| first.stood > FAR_TOO_LONG && !self.controls.drives(first.id);
+        let lanes = self.queues(tracks).filter(|(_, queue)| queue.first().is_some_and(is_stuck));
+        stuck.extend(lanes.map(|(lane, _)| lane));
+        for lane in stuck.drain(..) {
+            counters.rerouted += u64::from(self.turn_elsewhere(tracks, config, lane));
         }
         self.stuck = stuck;
     }
@@ -127,7 +155,7 @@ mod tests {
     use simworld_core::seed::Seed;
 
     use super::super::clock::Moment;
-    use super::super::manager::Sight;
+    use super::super::manager::{EXIT, Sight};
     use super::super::path::Path;
     use super::*;
     use crate::{TrafficConfig, TripEnd};
@@ -233,6 +261,49 @@ mod tests {
         }
         assert_eq!((counters.arrived, counters.removed), (2, 0), "{counters:?}");
         assert_eq!(counters.rerouted, 1, "the other takes another way and lets him in");
+    }
+
+    /// The way that the first of a lane wants after he has stood for so long, and the one that he wanted.
+    fn turns_off(stood: f64, is_full: bool) -> (u32, u32) {
+        let network = RoadNetwork::derive(&StreetPlan::grid(3, 3, 100.0), &NetworkConfig::default());
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(Arc::new(network.expect("it is a plan")), &config);
+        let mut vehicles = VehicleManager::new(&tracks);
+        let two = |lane: &Track| tracks.exits(*lane).len() == 2;
+        let lane = (0..tracks.lanes as Track).find(two).expect("at a corner of the middle one may choose");
+        let mut put = |lane: Track, s: f64, stood: f64, next: u32| {
+            let id = vehicles.numbers() as u32;
+            let car = Vehicle { stood, next, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };
+            vehicles.whereabouts.push(lane);
+            vehicles.storage.add(lane, &car, &config);
+            vehicles.push(&tracks, lane, car, Path::new(lane, NONE, 0.0, 0.0));
+        };
+        let [wanted, other] = [0, 1].map(|index| tracks.exits(lane)[index].0);
+        put(lane, tracks.length[lane as usize] - 0.5, stood, wanted);
+        if is_full {
+            let length = config.vehicle_type(0).length;
+            let after = tracks.lane_after(other as usize);
+            let places = (tracks.length[after as usize] / (length + 2.0)) as usize;
+            for place in 0..places {
+                put(after, tracks.length[after as usize] - 1.0 - (length + 1.9) * place as f64, 5.0, EXIT);
+            }
+        }
+        let mut counters = Counters::default();
+        let at = Moment { now: 9.9, dt: 0.1, step: 99 };
+        vehicles.turn_off(&tracks, &config, at, &mut counters);
+        let next = vehicles.queue(&tracks, lane)[0].next;
+        assert_eq!(counters.rerouted, u64::from(next != wanted));
+        (next, wanted)
+    }
+
+    #[test]
+    fn who_stands_far_too_long_at_his_line_turns_to_where_there_is_room() {
+        let (next, wanted) = turns_off(FAR_TOO_LONG - 1.0, false);
+        assert_eq!(next, wanted, "not yet");
+        let (next, wanted) = turns_off(FAR_TOO_LONG + 1.0, false);
+        assert_ne!(next, wanted);
+        let (next, wanted) = turns_off(FAR_TOO_LONG + 1.0, true);
+        assert_eq!(next, wanted, "there is no room elsewhere");
     }
 
     #[test]
