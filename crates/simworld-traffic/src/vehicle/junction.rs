@@ -33,7 +33,7 @@ const AT_LINE: f64 = 1.5;
 
 /// Who has stood at its line for so long has the room behind the junction before all others, s: else those whose green comes when
 /// there is some would have it for good.
-pub(super) const PATIENT: f64 = 240.0;
+pub(super) const PATIENT: f64 = 120.0;
 /// Drivers come to a stand with a little more than the least gap, and a rear must be out of the junction by some way, m.
 const SETTLES: f64 = 0.8;
 
