@@ -192,6 +192,22 @@ impl Part {
         way.or(wish.asked.map(|_| NONE))
     }
 
+    /// How many lanes over the nearest one is that leads one on whose own does not; one if there is none.
+    pub(super) fn changes_needed(&self, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> usize {
+        let Scene { tracks, routes, closures, .. } = scene;
+        let local = tracks.layout.local(lane);
+        let rank = self.slabs.queue(local).iter().position(|other| other.id == vehicle.id);
+        let Some(path) = rank.and_then(|rank| self.slabs.paths(local).get(rank)) else { return 1 };
+        let own = || VehicleManager::next_leg(tracks, routes, (lane, vehicle), path);
+        let Some(wanted) = scene.controls.next_leg(vehicle.id).or_else(own) else { return 1 };
+        let after = routes.get(path.route as usize);
+        let after = after.and_then(|route| route.0.get(path.leg as usize + 2..)).unwrap_or_default();
+        let kind = scene.config.vehicle_type(vehicle.row).kind;
+        let leads_on = |lane: &Track| tracks.way_on(closures, *lane, (wanted, after), kind).is_some();
+        let sides = [0, 1].map(|side| tracks.beside_on(lane, side).position(|lane| leads_on(&lane)));
+        sides.into_iter().flatten().min().map_or(1, |between| between + 1)
+    }
+
     /// By how many grades another way than his own leads a driver on better along his route.
     fn leads_better(&self, scene: &Scene<'_>, (lane, rank): (Track, usize), way: u32) -> f64 {
         let tracks = scene.tracks;
@@ -296,4 +312,53 @@ fn leads_towards(
 fn stays_at_kerb(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
     let is_near = f64::from(vehicle.halt) - vehicle.s < CHANGE_ROOM;
     vehicle.halt.is_finite() && (tracks.outermost[lane as usize] || is_near)
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
+    use simworld_core::seed::Seed;
+
+    use super::super::clock::Moment;
+    use super::super::manager::Sight;
+    use super::super::path::Path;
+    use super::*;
+    use crate::{Route, TrafficConfig};
+
+    #[test]
+    fn lanes_are_counted_to_the_nearest_that_leads_on() {
+        let mut plan = StreetPlan::crossroads(150.0);
+        plan.sections = vec![simworld_core::net::CrossSection::two_way(3, 3)];
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let config = TrafficConfig::default();
+        let tracks = Tracks::new(std::sync::Arc::new(network), &config);
+        let leads_to = |lane: Track, leg: Leg| tracks.exits(lane).iter().any(|(_, to)| *to == leg);
+        // From a lane at the side, a leg to which only that on the other side leads.
+        let across = |lane: Track| {
+            let beside: Vec<Track> = tracks.all_beside(lane).collect();
+            let [middle, far] = beside[..] else { return None };
+            let legs = tracks.exits(far).iter().map(|(_, leg)| *leg);
+            let mut only_there = legs.filter(|leg| !leads_to(lane, *leg) && !leads_to(middle, *leg));
+            let is_aside = tracks.beside[lane as usize].contains(&NONE);
+            only_there.next().filter(|_| is_aside).map(|leg| ([lane, middle, far], leg))
+        };
+        let (lanes, goal) = (0..tracks.lanes as Track).find_map(across).expect("one turns left from the left");
+        let mut vehicles = VehicleManager::new(&tracks);
+        let own = Leg::of(&tracks.network, simworld_core::id::LaneId(lanes[0]));
+        let route = vehicles.add_route(Route(vec![own, goal]));
+        for (id, lane) in lanes.into_iter().enumerate() {
+            let car = Vehicle::new(config.vehicle_type(0), 0, 1.0, id as u32, 60.0);
+            vehicles.whereabouts.push(lane);
+            vehicles.push(&tracks, lane, car, Path::new(lane, route, 0.0, 0.0));
+        }
+        let zeros = vec![0; tracks.network.crossings.len()];
+        let sight = Sight { aspects: &[], shown: &[], walkers: &zeros, waiting: &zeros, obstacles: &[] };
+        let at = Moment { now: 0.0, dt: 0.1, step: 0 };
+        let scene = vehicles.scene(&tracks, &config, sight, Seed(1).stream("cars"), at);
+        let needed = lanes.map(|lane| {
+            let part = &vehicles.parts[tracks.layout.place(lane).part as usize];
+            part.changes_needed(&scene, lane, &vehicles.queue(&tracks, lane)[0])
+        });
+        assert_eq!(needed[..2], [2, 1], "from the right and from the middle");
+    }
 }

@@ -84,11 +84,13 @@ impl Tracks {
 
     /// All lanes that lead the same way beside a lane, on its left and on its right.
     pub(super) fn all_beside(&self, lane: Track) -> impl Iterator<Item = Track> + '_ {
-        [0, 1].into_iter().flat_map(move |side| {
-            let next =
-                move |from: &Track| Some(self.beside[*from as usize][side]).filter(|lane| *lane != NONE);
-            std::iter::successors(next(&lane), next)
-        })
+        [0, 1].into_iter().flat_map(move |side| self.beside_on(lane, side))
+    }
+
+    /// Those on one side of it, the nearest first.
+    pub(super) fn beside_on(&self, lane: Track, side: usize) -> impl Iterator<Item = Track> + '_ {
+        let next = move |from: &Track| Some(self.beside[*from as usize][side]).filter(|lane| *lane != NONE);
+        std::iter::successors(next(&lane), next)
     }
 }
 

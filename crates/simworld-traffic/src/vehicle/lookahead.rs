@@ -241,16 +241,27 @@ impl View<'_> {
     /// Where one who must change lanes waits for a gap: so far from the end of its lane that a change still has room, if it can
     /// still stop there.
     fn before_change(&self, lane: &Lane<'_>, vehicle: &Vehicle, to_end: f64) -> f64 {
-        let early = to_end - CHANGE_ROOM - 1.0;
+        self.before_changes(lane, vehicle, to_end, 1).unwrap_or(to_end)
+    }
+
+    /// The same for one whose lane does not lead on: with room for as many changes as it needs, or else for as many as there is.
+    fn before_lanes(&self, lane: &Lane<'_>, vehicle: &Vehicle, to_end: f64) -> f64 {
+        let needed = lane.part.changes_needed(lane.scene, lane.track, vehicle);
+        let mut fewer = (1..=needed).rev();
+        fewer.find_map(|changes| self.before_changes(lane, vehicle, to_end, changes)).unwrap_or(to_end)
+    }
+
+    fn before_changes(&self, lane: &Lane<'_>, vehicle: &Vehicle, to_end: f64, changes: usize) -> Option<f64> {
+        let early = to_end - CHANGE_ROOM * changes as f64 - 1.0;
         // Where one may not change there is nothing to wait for.
         if vehicle.s + early - vehicle.length() < clear(lane.end, vehicle) {
-            return to_end;
+            return None;
         }
         // Harder than comfortably, so that who has begun to brake for it does not think better of it half way.
         let stopping = self.v * self.v / self.idm.emergency_deceleration;
         let beside = lane.scene.tracks.beside.get(lane.track as usize);
         let has_neighbour = beside.is_some_and(|beside| *beside != [NONE; 2]);
-        if has_neighbour && early > stopping { early } else { to_end }
+        (has_neighbour && early > stopping).then_some(early)
     }
 
     /// Must have a speed so far ahead, braking comfortably.
@@ -266,11 +277,11 @@ impl View<'_> {
             EXIT => {}
             // Who stands between two lanes would never come out of there: first it comes into its own.
             NONE if vehicle.shift != 0.0 => {
-                let early = self.before_change(lane, vehicle, to_end);
+                let early = self.before_lanes(lane, vehicle, to_end);
                 let way = f64::from(vehicle.shift.abs()) / STEEPNESS + 1.0;
                 self.stop_in(early.max(way).min(to_end), self.idm.gap);
             }
-            NONE => self.stop_in(self.before_change(lane, vehicle, to_end), self.idm.gap),
+            NONE => self.stop_in(self.before_lanes(lane, vehicle, to_end), self.idm.gap),
             _ if is_near => self.stop_in(to_end, self.idm.gap),
             _ => {}
         }
