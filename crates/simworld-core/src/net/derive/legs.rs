@@ -23,8 +23,9 @@ pub(super) struct Leg {
     pub(super) street: usize,
     /// Whether the street's centreline begins here.
     pub(super) at_start: bool,
-    /// Direction in which it leaves.
+    /// Direction in which it leaves, radians, and the same as a vector.
     pub(super) heading: f64,
+    ahead: Vector2,
     /// Carriageway to the left of the centreline, seen leaving, m.
     pub(super) left: f64,
     /// Carriageway to the right, m.
@@ -63,12 +64,12 @@ const fn rounding(class: RoadClass) -> f64 {
 
 impl Leg {
     pub(super) fn direction(&self) -> Vector2 {
-        direction(self.heading)
+        self.ahead
     }
 
     /// The point `along` m out and `left` m to the left of the centreline, taken as straight near the junction.
     pub(super) fn point(&self, along: f64, left: f64) -> Point2 {
-        let ahead = self.direction();
+        let ahead = self.ahead;
         self.node + ahead * along + Vector2::new(-ahead.y, ahead.x) * left
     }
 }
@@ -87,10 +88,12 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>
         let leaving = |node: usize, towards: Point2, at_start: bool| {
             let (left, right) = swap(at_start, (left, right));
             let (left_walk, right_walk) = swap(at_start, (left_walk, right_walk));
+            let heading = heading(&(towards - plan.nodes[node]));
             Leg {
                 street: index,
                 at_start,
-                heading: heading(&(towards - plan.nodes[node])),
+                heading,
+                ahead: direction(heading),
                 left,
                 right,
                 left_walk,
