@@ -4,6 +4,7 @@ mod beside;
 mod connections;
 mod curve;
 mod cycles;
+mod ends;
 mod extent;
 mod hammerhead;
 mod kerbs;
@@ -11,6 +12,7 @@ mod lanes;
 mod legs;
 mod mirror;
 mod near_side;
+mod outside;
 mod pieces;
 mod shape;
 mod signals;
@@ -213,9 +215,10 @@ impl RoadNetwork {
         for (node, legs) in legs.iter().enumerate() {
             signals::add(&mut network, IntersectionId::from_index(node), legs, config);
         }
+        let ends = ends::of_lanes(&network, workers);
         let made = workers::collect(workers, legs.len().div_ceil(PART), |part| {
             let nodes = part * PART..legs.len().min((part + 1) * PART);
-            connections::of_nodes(&network, plan, &legs, nodes)
+            connections::of_nodes(&network, plan, (&legs, &ends), nodes)
         });
         network.connections.reserve_exact(made.iter().map(Vec::len).sum());
         for part in made {
