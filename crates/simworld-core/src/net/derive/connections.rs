@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::ends::{End, Ends};
-use super::legs::Leg;
+use super::legs::{Leg, Legs};
 use super::near_side::Search;
 use super::trace::{Trace, Traces};
 use super::{cycles, hammerhead, kerbs, near_side};
@@ -42,10 +42,13 @@ struct Builder {
 pub(super) fn of_nodes(
     network: &RoadNetwork,
     plan: &StreetPlan,
-    (legs, ends): (&[Vec<Leg>], &[Ends]),
+    (legs, ends): (&Legs, &[Ends]),
     nodes: Range<usize>,
 ) -> Vec<Connection> {
     let mut builder = Builder::default();
+    // As many as there are where every street has one lane each way.
+    let ways = |node: usize| legs[node].len() * legs[node].len().saturating_sub(1).max(1);
+    builder.made.reserve(nodes.clone().map(ways).sum());
     for node in nodes {
         builder.add(network, plan, (IntersectionId::from_index(node), &legs[node]), ends);
     }
@@ -78,22 +81,21 @@ pub(in crate::net) fn settle(network: &mut RoadNetwork, place: IntersectionId, m
 }
 
 /// Adds connections that were made with numbers from zero on.
-pub(super) fn append(network: &mut RoadNetwork, made: Vec<Connection>) {
-    let shift = network.connections.len() as u32;
-    let mut next = shift;
-    for own in made.chunk_by(|a, b| a.intersection == b.intersection) {
+pub(super) fn append(network: &mut RoadNetwork, mut made: Vec<Connection>) {
+    let first = network.connections.len();
+    network.connections.append(&mut made);
+    let mut next = first as u32;
+    for own in network.connections[first..].chunk_by_mut(|a, b| a.intersection == b.intersection) {
         let end = next + own.len() as u32;
-        network.intersections[own[0].intersection.index()].connections =
-            (next..end).map(ConnectionId).collect();
-        next = end;
-    }
-    for mut connection in made {
-        for other in connection.conflicts.iter_mut().chain(&mut connection.yields_to) {
-            other.0 += shift;
+        let ids = (next..end).map(ConnectionId);
+        network.intersections[own[0].intersection.index()].connections = ids.clone().collect();
+        for (id, connection) in ids.zip(own) {
+            for other in connection.conflicts.iter_mut().chain(&mut connection.yields_to) {
+                other.0 += first as u32;
+            }
+            network.lanes[connection.from.index()].outgoing.push(id);
         }
-        let id = ConnectionId::from_index(network.connections.len());
-        network.lanes[connection.from.index()].outgoing.push(id);
-        network.connections.push(connection);
+        next = end;
     }
 }
 

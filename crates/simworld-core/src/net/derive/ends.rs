@@ -15,7 +15,7 @@ pub(super) struct Ends {
 
 /// Those of all lanes.
 pub(super) fn of_lanes(network: &RoadNetwork, workers: &dyn Workers) -> Vec<Ends> {
-    workers::each(workers, network.lanes.len(), |lane| of(&network.lanes[lane])).collect()
+    workers::each(workers, network.lanes.len(), |lane| of(&network.lanes[lane]))
 }
 
 fn of(lane: &Lane) -> Ends {

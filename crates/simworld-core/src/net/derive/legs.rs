@@ -1,10 +1,11 @@
 //! The legs of a junction: where each street leaves it, how wide it is there, and how far the junction reaches into it.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Index;
 
 use super::{NetworkConfig, StreetPlan, hammerhead, kerbs};
 use crate::geometry::{Point2, Vector2, direction, heading};
-use crate::net::{RoadClass, polyline};
+use crate::net::{CrossSection, RoadClass, polyline};
 
 /// Gap between the stop line and the crossing, m.
 const STOP_GAP: f64 = 1.0;
@@ -74,51 +75,112 @@ impl Leg {
     }
 }
 
-/// The legs of every node, counter-clockwise by heading.
-pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>> {
-    let mut legs: Vec<Vec<Leg>> = vec![Vec::new(); plan.nodes.len()];
-    let mut lengths = Vec::with_capacity(plan.streets.len());
+/// The legs of every node, counter-clockwise by heading; those of one node after those of another.
+pub(super) struct Legs {
+    all: Vec<Leg>,
+    /// Where those of each node begin, and where the last ones end.
+    starts: Vec<usize>,
+}
+
+impl Legs {
+    /// How many nodes there are.
+    pub(super) fn nodes(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Those of all nodes.
+    pub(super) fn all(&self) -> &[Leg] {
+        &self.all
+    }
+
+    /// Those of each node.
+    pub(super) fn by_node(&self) -> impl Iterator<Item = &[Leg]> {
+        self.starts.windows(2).map(|ends| &self.all[ends[0]..ends[1]])
+    }
+
+    /// Works on those of each node.
+    fn edit(&mut self, mut work: impl FnMut(&mut [Leg])) {
+        self.starts.windows(2).for_each(|ends| work(&mut self.all[ends[0]..ends[1]]));
+    }
+}
+
+impl Index<usize> for Legs {
+    type Output = [Leg];
+
+    /// Those of a node.
+    fn index(&self, node: usize) -> &[Leg] {
+        &self.all[self.starts[node]..self.starts[node + 1]]
+    }
+}
+
+/// The end of a street at a node: in which direction the street leaves there, radians, which it is, and whether it begins there.
+type End = (f64, usize, bool);
+
+/// The ends of all streets by their nodes, counter-clockwise, and where those of each node begin.
+fn ends_by_node(plan: &StreetPlan) -> (Vec<End>, Vec<usize>) {
+    let mut starts = vec![0; plan.nodes.len() + 1];
+    for street in &plan.streets {
+        starts[street.from + 1] += 1;
+        starts[street.to + 1] += 1;
+    }
+    for node in 1..starts.len() {
+        starts[node] += starts[node - 1];
+    }
+    let (mut ends, mut next) = (vec![(0.0, 0, false); 2 * plan.streets.len()], starts.clone());
     for (index, street) in plan.streets.iter().enumerate() {
-        lengths.push(plan.length_of(street));
-        let section = plan.section(street);
-        let (left, right) = section.kerbs();
-        let (left_walk, right_walk) =
-            (section.left_of_reference() - left, section.right_of_reference() - right);
-        let swap = |at_start: bool, (a, b): (f64, f64)| if at_start { (a, b) } else { (b, a) };
-        let leaving = |node: usize, towards: Point2, at_start: bool| {
-            let (left, right) = swap(at_start, (left, right));
-            let (left_walk, right_walk) = swap(at_start, (left_walk, right_walk));
-            let heading = heading(&(towards - plan.nodes[node]));
-            Leg {
-                street: index,
-                at_start,
-                heading,
-                ahead: direction(heading),
-                left,
-                right,
-                left_walk,
-                right_walk,
-                reach: 0.0,
-                stop: 0.0,
-                walk: 0.0,
-                rounding: rounding(street.class),
-                wanted: 0.0,
-                turning: street.turning[usize::from(!at_start)],
-                hammerhead: street.hammerhead[usize::from(!at_start)],
-                node: plan.nodes[node],
-            }
-        };
         let first = street.via.first().copied().unwrap_or(plan.nodes[street.to]);
         let last = street.via.last().copied().unwrap_or(plan.nodes[street.from]);
-        legs[street.from].push(leaving(street.from, first, true));
-        legs[street.to].push(leaving(street.to, last, false));
+        for (node, towards, at_start) in [(street.from, first, true), (street.to, last, false)] {
+            ends[next[node]] = (heading(&(towards - plan.nodes[node])), index, at_start);
+            next[node] += 1;
+        }
     }
-    for legs in &mut legs {
-        legs.sort_by(|a, b| a.heading.total_cmp(&b.heading).then(a.street.cmp(&b.street)));
-        set_reaches(legs, config);
+    for node in starts.windows(2) {
+        ends[node[0]..node[1]].sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
+    (ends, starts)
+}
+
+/// The legs of a plan.
+pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Legs {
+    let widths: Vec<[(f64, f64); 2]> = plan.sections.iter().map(widths).collect();
+    let leg = |(heading, index, at_start): End| {
+        let street = &plan.streets[index];
+        let [mut left, mut right] = widths[street.section as usize];
+        if !at_start {
+            (left, right) = (right, left);
+        }
+        Leg {
+            street: index,
+            at_start,
+            heading,
+            ahead: direction(heading),
+            left: left.0,
+            right: right.0,
+            left_walk: left.1,
+            right_walk: right.1,
+            reach: 0.0,
+            stop: 0.0,
+            walk: 0.0,
+            rounding: rounding(street.class),
+            wanted: 0.0,
+            turning: street.turning[usize::from(!at_start)],
+            hammerhead: street.hammerhead[usize::from(!at_start)],
+            node: plan.nodes[if at_start { street.from } else { street.to }],
+        }
+    };
+    let (ends, starts) = ends_by_node(plan);
+    let mut legs = Legs { all: ends.into_iter().map(leg).collect(), starts };
+    legs.edit(|legs| set_reaches(legs, config));
+    let lengths: Vec<f64> = plan.streets.iter().map(|street| plan.length_of(street)).collect();
     fit_into_streets(&mut legs, &lengths);
     legs
+}
+
+/// The width of the carriageway, and of what lies beyond its kerb, to the left and to the right of the centreline, m.
+fn widths(section: &CrossSection) -> [(f64, f64); 2] {
+    let (left, right) = section.kerbs();
+    [(left, section.left_of_reference() - left), (right, section.right_of_reference() - right)]
 }
 
 /// The angle by which one turns left from leg `a` to leg `b`, in (0, 2π].
@@ -183,25 +245,24 @@ fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
 
 /// Shortens what both ends take of a street that is too short for it: first room to turn and roundings, then the room
 /// for crossings and stop lines, then the reaches, for an area cut short of where kerbs meet would fold over itself.
-fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
-    for legs in legs.iter_mut() {
-        if let [leg] = legs.as_mut_slice() {
-            // A street that is not much longer than its turning circle or hammerhead has none.
-            let has_room = leg.turning > 0.0 || leg.hammerhead;
-            if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
-                (leg.turning, leg.hammerhead) = (0.0, false);
-                (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
-            }
+fn fit_into_streets(legs: &mut Legs, lengths: &[f64]) {
+    legs.edit(|legs| {
+        let [leg] = legs else { return };
+        // A street that is not much longer than its turning circle or hammerhead has none.
+        let has_room = leg.turning > 0.0 || leg.hammerhead;
+        if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
+            (leg.turning, leg.hammerhead) = (0.0, false);
+            (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
         }
-    }
+    });
     let mut asked = vec![(0.0, 0.0, 0.0); lengths.len()];
-    for leg in legs.iter().flatten() {
+    for leg in legs.all() {
         let (reach, stop, wanted) = &mut asked[leg.street];
         *reach += leg.reach;
         *stop += leg.stop;
         *wanted += leg.wanted;
     }
-    for leg in legs.iter_mut().flatten() {
+    for leg in &mut legs.all {
         let room = lengths[leg.street] - LEAST_LANE;
         let (reach, stop, wanted) = asked[leg.street];
         if stop <= room {

@@ -78,6 +78,14 @@ impl Shape {
         (is_between && lesser(first, last) < low && greater(first, last) > high).then_some(true)
     }
 
+    /// Whether a segment plainly lies beside the path.
+    pub(super) fn is_beside(&self, start: &Point2, end: &Point2) -> bool {
+        let mut seen = Extent::NONE;
+        seen.add(self.locate(start));
+        seen.add(self.locate(end));
+        self.beside.apart(&seen) > SLACK * self.length
+    }
+
     /// Whether another path bends about the same middle, more than `limit` m farther out or in.
     pub(super) fn is_round(&self, other: &Self, path: &[Point2], limit: f64) -> bool {
         let is_apart = |(center, own): (Point2, Radii)| {

@@ -179,7 +179,7 @@ impl Traces {
         let mut strip = Extent::NONE;
         strip.add([start.x, start.y]);
         strip.add([end.x, end.y]);
-        if strip.apart(&trace.extent) > SLACK {
+        if strip.apart(&trace.extent) > SLACK || trace.shape.is_beside(&start, &end) {
             return false;
         }
         // A piece with both ends on one side of the segment's line does not cross it.
