@@ -16,8 +16,6 @@ const SPACING: f64 = 3.0;
 /// Boxes farther apart than this have no point in common, m; and what lies farther than this on one side of a line does not
 /// reach the other, whatever was rounded.
 const SLACK: f64 = 1e-6;
-/// A little more than the square root of two.
-const DIAGONAL: f64 = std::f64::consts::SQRT_2 + 1e-6;
 
 /// Some pieces of a path.
 #[derive(Clone, Copy)]
@@ -60,26 +58,22 @@ impl Block {
     }
 }
 
-/// A path with the octagon around it.
+/// A path with the box around it.
 #[derive(Clone)]
 pub(super) struct Trace {
     points: Range<usize>,
-    /// Some points on it.
-    samples: Range<usize>,
     extent: Extent,
-    /// The same along the two diagonals, x + y and x - y.
-    diagonal: Extent,
     /// Length of its longest piece, m.
     longest: f64,
     shape: Shape,
 }
 
-/// The paths across one junction, one after another, and what is made of them.
+/// The paths across one junction, one after another.
 #[derive(Default)]
 pub(super) struct Traces {
     points: Vec<Point2>,
-    samples: Vec<Point2>,
-    /// The pieces of the two paths of which each is asked.
+    /// Some points on the two paths of which that is asked, and their pieces.
+    samples: [Vec<Point2>; 2],
     blocks: [Vec<Block>; 2],
 }
 
@@ -87,33 +81,18 @@ impl Traces {
     /// Forgets all paths and keeps their memory.
     pub(super) fn clear(&mut self) {
         self.points.clear();
-        self.samples.clear();
     }
 
     pub(super) fn add(&mut self, path: &[Point2]) -> Trace {
-        let (points, samples) = (self.points.len(), self.samples.len());
-        let (mut extent, mut diagonal) = (Extent::NONE, Extent::NONE);
-        let mut longest: f64 = 0.0;
-        for (index, point) in path.iter().enumerate() {
-            extent.add([point.x, point.y]);
-            diagonal.add([point.x + point.y, point.x - point.y]);
-            let step = path.get(index + 1).unwrap_or(point) - point;
-            let squared = step.norm_squared();
-            longest = greater(longest, squared);
-            if index % STRIDE == STRIDE / 2 {
-                self.samples.push(*point);
-            }
-            if squared > SPACING * SPACING {
-                let parts = (squared.sqrt() / SPACING).ceil();
-                self.samples.extend((1..parts as usize).map(|part| point + step * (part as f64 / parts)));
-            }
-        }
+        let mut extent = Extent::NONE;
+        path.iter().for_each(|point| extent.add([point.x, point.y]));
+        let squares = path.windows(2).map(|piece| (piece[1] - piece[0]).norm_squared());
+        let longest = squares.fold(0.0, greater);
+        let first = self.points.len();
         self.points.extend_from_slice(path);
         Trace {
-            points: points..self.points.len(),
-            samples: samples..self.samples.len(),
+            points: first..self.points.len(),
             extent,
-            diagonal,
             longest: longest.sqrt(),
             shape: Shape::of(path, longest),
         }
@@ -122,7 +101,7 @@ impl Traces {
     /// Whether the two come nearer to each other than `limit` m: the same as to compare
     /// [`polyline::distance_between`], and much faster.
     pub(super) fn touch(&mut self, a: &Trace, b: &Trace, limit: f64) -> bool {
-        if a.extent.apart(&b.extent) >= limit || a.diagonal.apart(&b.diagonal) >= limit * DIAGONAL {
+        if a.extent.apart(&b.extent) >= limit {
             return false;
         }
         let [own, other] = [a, b].map(|trace| self.path(trace));
@@ -187,14 +166,18 @@ impl Traces {
         let least = SLACK * along.norm();
         let side = |point: Point2| along.perp(&(point - start));
         let is_aside = |a: f64, b: f64| (a > least && b > least) || (a < -least && b < -least);
+        // A strip lies near one end of the paths that cross it.
+        let is_crossed = |piece: &[Point2]| {
+            !is_aside(side(piece[0]), side(piece[1]))
+                && polyline::crossing(piece[0], piece[1], start, end).is_some()
+        };
         let path = self.path(trace);
-        let mut before = path.first().map_or(0.0, |first| side(*first));
-        path.windows(2).any(|piece| {
-            let after = side(piece[1]);
-            let may_cross = !is_aside(before, after);
-            before = after;
-            may_cross && polyline::crossing(piece[0], piece[1], start, end).is_some()
-        })
+        let away = |point: Option<&Point2>| point.map_or(0.0, |point| (point - start).norm_squared());
+        if away(path.last()) < away(path.first()) {
+            path.windows(2).rev().any(is_crossed)
+        } else {
+            path.windows(2).any(is_crossed)
+        }
     }
 
     fn path(&self, trace: &Trace) -> &[Point2] {
@@ -202,12 +185,30 @@ impl Traces {
     }
 
     /// Whether one of some points on the one is that near to one of some points on the other.
-    fn have_points_near(&self, a: &Trace, b: &Trace, limit: f64) -> bool {
-        let near = limit * limit;
-        let others = &self.samples[b.samples.clone()];
+    fn have_points_near(&mut self, a: &Trace, b: &Trace, limit: f64) -> bool {
+        for (samples, trace) in self.samples.iter_mut().zip([a, b]) {
+            samples.clear();
+            sample(&self.points[trace.points.clone()], samples);
+        }
+        let (near, [samples, others]) = (limit * limit, &self.samples);
         // All of the others at once: several fit into one instruction.
         let is_near = |a: &Point2| others.iter().fold(false, |any, b| any | ((a - b).norm_squared() < near));
-        self.samples[a.samples.clone()].iter().any(is_near)
+        samples.iter().any(is_near)
+    }
+}
+
+/// Adds some points on a path.
+fn sample(path: &[Point2], samples: &mut Vec<Point2>) {
+    for (index, point) in path.iter().enumerate() {
+        if index % STRIDE == STRIDE / 2 {
+            samples.push(*point);
+        }
+        let step = path.get(index + 1).unwrap_or(point) - point;
+        let squared = step.norm_squared();
+        if squared > SPACING * SPACING {
+            let parts = (squared.sqrt() / SPACING).ceil();
+            samples.extend((1..parts as usize).map(|part| point + step * (part as f64 / parts)));
+        }
     }
 }
 
