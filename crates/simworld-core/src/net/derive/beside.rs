@@ -56,7 +56,8 @@ impl Kerb {
     }
 
     /// How far a point is from it on the side of the carriageway, m: the lateral of [`polyline::closest`], to the bit, and
-    /// infinite if it has no piece.
+    /// infinite if it has no piece. It is a function by itself: the loop over what is plainly farther off stays small.
+    #[inline(never)]
     fn beside(&mut self, point: &Point2) -> f64 {
         if self.blocks.is_empty() {
             let firsts = (1..self.line.len()).step_by(LANES).map(|first| first - 1);

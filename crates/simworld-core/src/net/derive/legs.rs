@@ -183,24 +183,61 @@ fn widths(section: &CrossSection) -> [(f64, f64); 2] {
     [(left, section.left_of_reference() - left), (right, section.right_of_reference() - right)]
 }
 
-/// The angle by which one turns left from leg `a` to leg `b`, in (0, 2π].
-fn angle_between(a: &Leg, b: &Leg) -> f64 {
-    let angle = (b.heading - a.heading).rem_euclid(TAU);
-    if angle == 0.0 { TAU } else { angle }
+/// The corner between a leg and the next one.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// The angle by which one turns left from the one to the other, in (0, 2π].
+    angle: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Corner {
+    fn between(leg: &Leg, next: &Leg) -> Self {
+        let angle = (next.heading - leg.heading).rem_euclid(TAU);
+        let angle = if angle == 0.0 { TAU } else { angle };
+        let (sin, cos) = crate::ops::sin_cos(angle);
+        Self { angle, sin, cos }
+    }
+
+    /// How far out the rounding of a corner between two kerbs begins, m; nothing where they diverge or the corner is so
+    /// acute that it would begin far away.
+    fn rounded_reach(&self, own: f64, other: f64, radius: f64) -> f64 {
+        if !(SHARPEST..PI - 0.05).contains(&self.angle) {
+            return 0.0;
+        }
+        self.edge_meeting(own, other) + radius * (1.0 + self.cos) / self.sin
+    }
+
+    /// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
+    ///
+    /// Edges of different width that are nearly one line would meet tens of metres away, where the streets may long have
+    /// turned; the one goes over into the other within the larger of the two widths instead.
+    fn edge_meeting(&self, own: f64, other: f64) -> f64 {
+        if self.angle >= PI - 0.05 {
+            return 0.0;
+        }
+        let met = ((other + own * self.cos) / self.sin).max(0.0);
+        if self.cos < 0.0 { met.min(own.max(other)) } else { met }
+    }
 }
 
 fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     let count = legs.len();
+    let corner = |index: usize, legs: &[Leg]| Corner::between(&legs[index], &legs[(index + 1) % count]);
+    // What comes before the first one lies between the last one and the first.
+    let Some(mut before_it) = count.checked_sub(1).map(|last| corner(last, legs)) else { return };
     for index in 0..count {
         let (before, after) = (&legs[(index + count - 1) % count], &legs[(index + 1) % count]);
         let leg = &legs[index];
-        let angles = (angle_between(leg, after), angle_between(before, leg));
+        let corners = (corner(index, legs), before_it);
+        before_it = corners.0;
         let (left, right) = (leg.left + leg.left_walk, leg.right + leg.right_walk);
-        let on_left = edge_meeting(left, after.right + after.right_walk, angles.0);
-        let on_right = edge_meeting(right, before.left + before.left_walk, angles.1);
+        let on_left = corners.0.edge_meeting(left, after.right + after.right_walk);
+        let on_right = corners.1.edge_meeting(right, before.left + before.left_walk);
         let reach = if count == 1 { DEAD_END_REACH } else { LEAST_REACH.max(on_left).max(on_right) };
-        let rounded = rounded_reach(leg.left, after.right, angles.0, leg.rounding.min(after.rounding))
-            .max(rounded_reach(leg.right, before.left, angles.1, leg.rounding.min(before.rounding)));
+        let rounded = (corners.0.rounded_reach(leg.left, after.right, leg.rounding.min(after.rounding)))
+            .max(corners.1.rounded_reach(leg.right, before.left, leg.rounding.min(before.rounding)));
         let leg = &mut legs[index];
         leg.reach = reach;
         leg.wanted = if count == 1 { 0.0 } else { (rounded - reach).max(0.0) };
@@ -218,29 +255,6 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
             (leg.reach, leg.stop, leg.walk) = (reach, reach, reach);
         }
     }
-}
-
-/// How far out the rounding of a corner between two kerbs begins, m; nothing where they diverge or the corner is so
-/// acute that it would begin far away.
-fn rounded_reach(own: f64, other: f64, angle: f64, radius: f64) -> f64 {
-    if !(SHARPEST..PI - 0.05).contains(&angle) {
-        return 0.0;
-    }
-    let (sin, cos) = crate::ops::sin_cos(angle);
-    edge_meeting(own, other, angle) + radius * (1.0 + cos) / sin
-}
-
-/// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
-///
-/// Edges of different width that are nearly one line would meet tens of metres away, where the streets may long have
-/// turned; the one goes over into the other within the larger of the two widths instead.
-fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
-    if angle >= PI - 0.05 {
-        return 0.0;
-    }
-    let (sin, cos) = crate::ops::sin_cos(angle);
-    let met = ((other + own * cos) / sin).max(0.0);
-    if cos < 0.0 { met.min(own.max(other)) } else { met }
 }
 
 /// Shortens what both ends take of a street that is too short for it: first room to turn and roundings, then the room

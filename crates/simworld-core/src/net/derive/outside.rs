@@ -22,19 +22,21 @@ impl Outside {
     /// `None` where it is not plain: only of kerbs that never turn to the left, by a right angle at most at each point, by less than
     /// half a turn in all, and neither of whose ends the other parts pass.
     pub(super) fn of(kerb: &[Point2]) -> Option<Self> {
-        let step = |piece: usize| kerb[piece + 1] - kerb[piece];
         let last = kerb.len().checked_sub(2)?;
+        let step = |piece: usize| kerb[piece + 1] - kerb[piece];
         let ends = [step(0), step(last)];
-        let goes_round = (0..=last).all(|piece| {
-            let (along, point) = (step(piece), &kerb[piece + 1]);
-            let before = step(piece.saturating_sub(1));
-            let (turned, on) = (ends[0].perp(&along), ends[0].dot(&along));
-            before.perp(&along) <= 0.0
-                && before.dot(&along) >= 0.0
-                && turned <= 0.0
-                && (turned < 0.0 || on > 0.0)
-                && (point - kerb[0]).dot(&ends[0]) >= 0.0
-                && (kerb[last + 1] - kerb[piece]).dot(&ends[1]) >= 0.0
+        let mut before = ends[0];
+        let goes_round = kerb.windows(2).all(|piece| {
+            let along = piece[1] - piece[0];
+            let turned = (before.perp(&along), before.dot(&along));
+            let in_all = (ends[0].perp(&along), ends[0].dot(&along));
+            before = along;
+            turned.0 <= 0.0
+                && turned.1 >= 0.0
+                && in_all.0 <= 0.0
+                && (in_all.0 < 0.0 || in_all.1 > 0.0)
+                && (piece[1] - kerb[0]).dot(&ends[0]) >= 0.0
+                && (kerb[last + 1] - piece[0]).dot(&ends[1]) >= 0.0
         });
         if !goes_round {
             return None;
