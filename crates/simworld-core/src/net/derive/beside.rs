@@ -1,6 +1,6 @@
 //! How far points are from a kerb, asked of many points.
 
-use super::extent::lesser;
+use super::extent::{greater, lesser};
 use super::outside::Outside;
 use super::pieces::{LANES, Pieces};
 use crate::geometry::Point2;
@@ -47,7 +47,8 @@ impl Kerb {
         let (before, after) = path.split_at(path.len() / 2);
         let mut points = after.iter().chain(before.iter().rev());
         points.try_fold(most, |nearest, point| {
-            if self.outside.as_ref().is_some_and(|outside| outside.least(point) > nearest + SLACK) {
+            let plainly = self.outside.as_ref().map_or(f64::NEG_INFINITY, |outside| outside.least(point));
+            if plainly > greater(nearest, 0.0) + SLACK {
                 return Some(nearest);
             }
             let beside = self.beside(point);
@@ -103,6 +104,34 @@ impl Block {
 mod tests {
     use super::*;
     use crate::seed::Seed;
+
+    #[test]
+    fn what_is_plainly_off_a_kerb_changes_no_clearance() {
+        let mut rng = Seed(9).stream("clearance").rng();
+        let mut kerb = Kerb::default();
+        let mut limits = [0; 2];
+        for _ in 0..2000 {
+            let (mut at, mut heading) = (Point2::origin(), rng.uniform(-3.0, 3.0));
+            let mut line = vec![at];
+            for _ in 0..8 {
+                at += crate::geometry::direction(heading) * rng.uniform(0.1, 3.0);
+                heading -= rng.uniform(-0.01, 0.4);
+                line.push(at);
+            }
+            kerb.set(&line);
+            let point = |_| Point2::new(rng.uniform(-9.0, 9.0), rng.uniform(-9.0, 9.0));
+            let path: Vec<Point2> = (0..3).map(point).collect();
+            let lateral = |point| polyline::closest(&line, point).map_or(f64::INFINITY, |near| near.lateral);
+            let clear = path.iter().map(lateral).fold(f64::INFINITY, f64::min);
+            for most in [-2.0, 0.0, 2.0, f64::INFINITY] {
+                assert_eq!(kerb.clearance(&path, most), clear.min(most), "{path:?} beside {line:?}");
+                let above = (clear > 1.0).then_some(clear.min(most)).filter(|_| most > 1.0);
+                assert!(most <= 1.0 || kerb.clearance_above(&path, 1.0, most) == above);
+            }
+            limits[usize::from(clear > 0.0)] += 1;
+        }
+        assert!(limits.iter().all(|count| *count > 300), "{limits:?} say nothing");
+    }
 
     #[test]
     fn it_is_the_lateral_of_the_nearest_point_to_the_bit() {
