@@ -24,9 +24,9 @@ impl Extent {
 
     /// Takes in a point.
     pub(super) fn add(&mut self, point: [f64; 2]) {
-        for axis in 0..2 {
-            self.low[axis] = lesser(self.low[axis], point[axis]);
-            self.high[axis] = greater(self.high[axis], point[axis]);
+        for (axis, at) in point.into_iter().enumerate() {
+            self.low[axis] = lesser(self.low[axis], at);
+            self.high[axis] = greater(self.high[axis], at);
         }
     }
 

@@ -76,7 +76,7 @@ mod tests {
             let (mut at, mut heading) = (Point2::origin(), rng.uniform(-3.0, 3.0));
             let sharpest = rng.uniform(0.1, 1.6);
             let mut kerb = vec![at];
-            for _ in 0..1 + (rng.uniform(0.0, 9.0) as usize) {
+            for _ in 0..=(rng.uniform(0.0, 9.0) as usize) {
                 at += direction(heading) * rng.uniform(0.1, 4.0);
                 heading -= rng.uniform(-0.02, sharpest);
                 kerb.push(at);

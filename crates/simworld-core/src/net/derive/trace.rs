@@ -85,7 +85,9 @@ impl Traces {
 
     pub(super) fn add(&mut self, path: &[Point2]) -> Trace {
         let mut extent = Extent::NONE;
-        path.iter().for_each(|point| extent.add([point.x, point.y]));
+        for point in path {
+            extent.add([point.x, point.y]);
+        }
         let squares = path.windows(2).map(|piece| (piece[1] - piece[0]).norm_squared());
         let longest = squares.fold(0.0, greater);
         let first = self.points.len();
