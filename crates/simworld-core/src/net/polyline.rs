@@ -19,7 +19,7 @@ pub fn at(path: &[Point2], station: f64) -> (Point2, f64) {
 }
 
 /// The point at a station, and the piece on which it lies; its heading costs more than all else, and few ask for it.
-fn at_piece(path: &[Point2], station: f64) -> (Point2, Option<Vector2>) {
+pub(in crate::net) fn at_piece(path: &[Point2], station: f64) -> (Point2, Option<Vector2>) {
     let mut left = station.max(0.0);
     let mut last = (path.first().copied().unwrap_or_else(Point2::origin), None);
     for pair in path.windows(2) {

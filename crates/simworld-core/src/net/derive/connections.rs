@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::curve::{curve, dense_curve};
-use super::legs::Leg;
+use super::ends::{End, Ends};
+use super::legs::{Leg, Legs};
 use super::near_side::Search;
 use super::trace::{Trace, Traces};
 use super::{cycles, hammerhead, kerbs, near_side};
-use crate::geometry::{Point2, Vector2, direction};
+use crate::geometry::Point2;
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
     Connection, Control, Few, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, StreetPlan, Turn,
@@ -42,12 +42,15 @@ struct Builder {
 pub(super) fn of_nodes(
     network: &RoadNetwork,
     plan: &StreetPlan,
-    legs: &[Vec<Leg>],
+    (legs, ends): (&Legs, &[Ends]),
     nodes: Range<usize>,
 ) -> Vec<Connection> {
     let mut builder = Builder::default();
+    // As many as there are where every street has one lane each way.
+    let ways = |node: usize| legs[node].len() * legs[node].len().saturating_sub(1).max(1);
+    builder.made.reserve(nodes.clone().map(ways).sum());
     for node in nodes {
-        builder.add(network, plan, IntersectionId::from_index(node), &legs[node]);
+        builder.add(network, plan, (IntersectionId::from_index(node), &legs[node]), ends);
     }
     builder.made
 }
@@ -78,28 +81,33 @@ pub(in crate::net) fn settle(network: &mut RoadNetwork, place: IntersectionId, m
 }
 
 /// Adds connections that were made with numbers from zero on.
-pub(super) fn append(network: &mut RoadNetwork, made: Vec<Connection>) {
-    let shift = network.connections.len() as u32;
-    let mut next = shift;
-    for own in made.chunk_by(|a, b| a.intersection == b.intersection) {
+pub(super) fn append(network: &mut RoadNetwork, mut made: Vec<Connection>) {
+    let first = network.connections.len();
+    network.connections.append(&mut made);
+    let mut next = first as u32;
+    for own in network.connections[first..].chunk_by_mut(|a, b| a.intersection == b.intersection) {
         let end = next + own.len() as u32;
-        network.intersections[own[0].intersection.index()].connections =
-            (next..end).map(ConnectionId).collect();
-        next = end;
-    }
-    for mut connection in made {
-        for other in connection.conflicts.iter_mut().chain(&mut connection.yields_to) {
-            other.0 += shift;
+        let ids = (next..end).map(ConnectionId);
+        network.intersections[own[0].intersection.index()].connections = ids.clone().collect();
+        for (id, connection) in ids.zip(own) {
+            for other in connection.conflicts.iter_mut().chain(&mut connection.yields_to) {
+                other.0 += first as u32;
+            }
+            network.lanes[connection.from.index()].outgoing.push(id);
         }
-        let id = ConnectionId::from_index(network.connections.len());
-        network.lanes[connection.from.index()].outgoing.push(id);
-        network.connections.push(connection);
+        next = end;
     }
 }
 
 impl Builder {
     /// Adds the connections of one intersection.
-    fn add(&mut self, network: &RoadNetwork, plan: &StreetPlan, id: IntersectionId, legs: &[Leg]) {
+    fn add(
+        &mut self,
+        network: &RoadNetwork,
+        plan: &StreetPlan,
+        (id, legs): (IntersectionId, &[Leg]),
+        ends: &[Ends],
+    ) {
         let first = self.made.len();
         let signals = network.intersections[id.index()].signals;
         let signals = signals.map(|index| &network.signals[index as usize]);
@@ -108,14 +116,9 @@ impl Builder {
             set_movements(network, plan, legs, leg, &mut self.movements);
             self.movements.extend(cycles::movements(network, plan, legs, leg));
             let place = Place { id, legs, leg: index };
-            let mut arrival = None;
             for movement in &self.movements {
-                let arrival = match arrival {
-                    Some((lane, arrival)) if lane == movement.0 => arrival,
-                    // Ways from one lane follow one another, and its end is far from its beginning.
-                    _ => arrival.insert((movement.0, end_of(network, movement.0))).1,
-                };
-                self.made.push(connection(network, &place, arrival, *movement, signal, &mut self.search));
+                let between = (ends[movement.0.index()].end, ends[movement.1.index()].begin);
+                self.made.push(connection(network, &place, between, *movement, signal, &mut self.search));
             }
         }
         self.traces.clear();
@@ -245,13 +248,6 @@ pub(super) fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
     }
 }
 
-/// Where a lane ends, and its direction there.
-fn end_of(network: &RoadNetwork, lane: LaneId) -> (Point2, Vector2) {
-    let lane = &network.lanes[lane.index()];
-    let (end, heading) = polyline::at(&lane.path, lane.length);
-    (end, direction(heading))
-}
-
 /// A junction, and the leg over which one arrives.
 struct Place<'a> {
     id: IntersectionId,
@@ -264,13 +260,12 @@ struct Place<'a> {
 fn path(
     network: &RoadNetwork,
     place: &Place<'_>,
-    (start, arriving_along): (Point2, Vector2),
+    ((start, arriving_along), (end, end_along)): (End, End),
     (from, to, turn): (LaneId, LaneId, Turn),
     search: &mut Search,
 ) -> Vec<Point2> {
     let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
-    let (end, end_heading) = polyline::at(&exit.path, 0.0);
     if turn == Turn::UTurn && (leg.turning > 0.0 || leg.hammerhead) {
         let ahead = leg.direction();
         let left = |point: Point2| ahead.perp(&(point - leg.node));
@@ -286,12 +281,11 @@ fn path(
             return path;
         }
     }
-    let end_along = direction(end_heading);
     let next = (place.leg + 1) % place.legs.len();
     if turn == Turn::UTurn || place.legs[next].street != exit.road.index() {
-        return curve(start, arriving_along, end, end_along);
+        return search.curves.curve(start, arriving_along, end, end_along);
     }
-    let smooth = dense_curve(start, arriving_along, end, end_along).collect();
+    let smooth = search.curves.dense_curve(start, arriving_along, end, end_along).collect();
     let way = near_side::Way { from: leg, start, to: &place.legs[next], end };
     let corner = (&network.intersections[place.id.index()], place.leg);
     near_side::keep_off(network, corner, &way, smooth, search)
@@ -300,12 +294,12 @@ fn path(
 fn connection(
     network: &RoadNetwork,
     place: &Place<'_>,
-    arrival: (Point2, Vector2),
+    between: (End, End),
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
     search: &mut Search,
 ) -> Connection {
-    let path = path(network, place, arrival, (from, to, turn), search);
+    let path = path(network, place, between, (from, to, turn), search);
     Connection {
         from,
         to,

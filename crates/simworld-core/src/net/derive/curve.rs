@@ -12,15 +12,49 @@ pub(in crate::net) fn curve(start: Point2, leaving: Vector2, end: Point2, arrivi
     curve.points(curve.least_pieces()).collect()
 }
 
-/// The same with a point about every metre wherever it leads.
-pub(super) fn dense_curve(
-    start: Point2,
-    leaving: Vector2,
-    end: Point2,
-    arriving: Vector2,
-) -> impl Iterator<Item = Point2> {
-    let curve = Bezier::new(start, leaving, end, arriving);
-    curve.points(curve.metres())
+/// Curves whose points lie at the same shares of their ways have them between their corners in the same proportions: those are
+/// worked out once.
+#[derive(Default)]
+pub(super) struct Curves {
+    /// The proportions at each point of a curve of so many pieces; empty until there is one.
+    shares: Vec<Vec<[f64; 4]>>,
+}
+
+impl Curves {
+    /// See [`curve`].
+    pub(super) fn curve(
+        &mut self,
+        start: Point2,
+        leaving: Vector2,
+        end: Point2,
+        arriving: Vector2,
+    ) -> Vec<Point2> {
+        let curve = Bezier::new(start, leaving, end, arriving);
+        self.points(curve.corners, curve.least_pieces()).collect()
+    }
+
+    /// The same with a point about every metre wherever it leads.
+    pub(super) fn dense_curve(
+        &mut self,
+        start: Point2,
+        leaving: Vector2,
+        end: Point2,
+        arriving: Vector2,
+    ) -> impl Iterator<Item = Point2> {
+        let curve = Bezier::new(start, leaving, end, arriving);
+        self.points(curve.corners, curve.metres())
+    }
+
+    fn points(&mut self, corners: [Point2; 4], pieces: usize) -> impl Iterator<Item = Point2> {
+        if self.shares.len() <= pieces {
+            self.shares.resize_with(pieces + 1, Vec::new);
+        }
+        let shares = &mut self.shares[pieces];
+        if shares.is_empty() {
+            shares.extend((0..=pieces).map(|index| Bezier::shares(index, pieces)));
+        }
+        shares.iter().map(move |shares| Bezier::point(&corners, shares))
+    }
 }
 
 struct Bezier {
@@ -61,16 +95,22 @@ impl Bezier {
     }
 
     fn points(&self, pieces: usize) -> impl Iterator<Item = Point2> + use<> {
-        let [start, a, b, end] = self.corners;
-        (0..=pieces).map(move |index| {
-            let t = index as f64 / pieces as f64;
-            let s = 1.0 - t;
-            let sum = start.coords * (s * s * s)
-                + a.coords * (3.0 * s * s * t)
-                + b.coords * (3.0 * s * t * t)
-                + end.coords * (t * t * t);
-            sum.into()
-        })
+        let corners = self.corners;
+        (0..=pieces).map(move |index| Self::point(&corners, &Self::shares(index, pieces)))
+    }
+
+    /// How much each corner counts at one of the points between so many pieces.
+    fn shares(index: usize, pieces: usize) -> [f64; 4] {
+        let t = index as f64 / pieces as f64;
+        let s = 1.0 - t;
+        [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
+    }
+
+    fn point(corners: &[Point2; 4], shares: &[f64; 4]) -> Point2 {
+        let [start, a, b, end] = corners;
+        let sum =
+            start.coords * shares[0] + a.coords * shares[1] + b.coords * shares[2] + end.coords * shares[3];
+        sum.into()
     }
 }
 
@@ -84,13 +124,14 @@ mod tests {
     #[test]
     fn fewer_points_are_as_near_to_the_curve() {
         let mut rng = Seed(3).stream("curve").rng();
-        let (mut few, mut many) = (0, 0);
+        let (mut few, mut many, mut curves) = (0, 0, Curves::default());
         for _ in 0..2000 {
             let end = Point2::new(rng.uniform(3.0, 45.0), 0.0);
             let mut along = || direction(rng.uniform(-0.8, 0.8) * rng.uniform(0.0, 1.0));
             let (leaving, arriving) = (along(), along());
             let path = curve(Point2::origin(), leaving, end, arriving);
-            let dense: Vec<Point2> = dense_curve(Point2::origin(), leaving, end, arriving).collect();
+            assert_eq!(curves.curve(Point2::origin(), leaving, end, arriving), path);
+            let dense: Vec<Point2> = curves.dense_curve(Point2::origin(), leaving, end, arriving).collect();
             (few, many) = (few + path.len(), many + dense.len());
             for point in &dense {
                 let near = polyline::closest(&path, point).expect("it has two points");

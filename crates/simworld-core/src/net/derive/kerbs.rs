@@ -187,7 +187,7 @@ pub(super) fn way_round(
     let middle = leg.point(along, shift);
     let angle = |beside: f64, swing: f64| ops::atan2(beside + swing, stop);
     let (first, last) = (angle(to_left, out), angle(to_right, back));
-    let mut points = Vec::new();
+    let mut points = Vec::with_capacity(64);
     let turn = |angle: f64| std::f64::consts::FRAC_PI_2 - angle;
     arc(leg.point(leg.stop, left + out), leg.point(leg.stop, left), -turn(first), 0.15, &mut points);
     let start = points.pop()?;

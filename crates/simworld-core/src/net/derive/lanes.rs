@@ -1,7 +1,7 @@
 //! Lanes: the driven strips of every cross-section, from stop line to stop line.
 
 use super::NetworkConfig;
-use super::legs::Leg;
+use super::legs::Legs;
 use crate::geometry::Point2;
 use crate::id::{LaneId, RoadId};
 use crate::net::polyline::Measured;
@@ -13,9 +13,9 @@ use crate::net::{
 const CYCLE_SPEED: f64 = 25.0 / 3.6;
 
 /// Cuts both ends off every centreline and lays the lanes beside what is left.
-pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], config: &NetworkConfig) {
+pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &Legs, config: &NetworkConfig) {
     let mut stops = vec![(0.0, 0.0); network.roads.len()];
-    for leg in legs.iter().flatten() {
+    for leg in legs.all() {
         let (start, end) = &mut stops[leg.street];
         *if leg.at_start { start } else { end } = leg.stop;
     }

@@ -1,10 +1,11 @@
 //! The legs of a junction: where each street leaves it, how wide it is there, and how far the junction reaches into it.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Index;
 
 use super::{NetworkConfig, StreetPlan, hammerhead, kerbs};
 use crate::geometry::{Point2, Vector2, direction, heading};
-use crate::net::{RoadClass, polyline};
+use crate::net::{CrossSection, RoadClass, polyline};
 
 /// Gap between the stop line and the crossing, m.
 const STOP_GAP: f64 = 1.0;
@@ -23,8 +24,9 @@ pub(super) struct Leg {
     pub(super) street: usize,
     /// Whether the street's centreline begins here.
     pub(super) at_start: bool,
-    /// Direction in which it leaves.
+    /// Direction in which it leaves, radians, and the same as a vector.
     pub(super) heading: f64,
+    ahead: Vector2,
     /// Carriageway to the left of the centreline, seen leaving, m.
     pub(super) left: f64,
     /// Carriageway to the right, m.
@@ -63,79 +65,179 @@ const fn rounding(class: RoadClass) -> f64 {
 
 impl Leg {
     pub(super) fn direction(&self) -> Vector2 {
-        direction(self.heading)
+        self.ahead
     }
 
     /// The point `along` m out and `left` m to the left of the centreline, taken as straight near the junction.
     pub(super) fn point(&self, along: f64, left: f64) -> Point2 {
-        let ahead = self.direction();
+        let ahead = self.ahead;
         self.node + ahead * along + Vector2::new(-ahead.y, ahead.x) * left
     }
 }
 
-/// The legs of every node, counter-clockwise by heading.
-pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>> {
-    let mut legs: Vec<Vec<Leg>> = vec![Vec::new(); plan.nodes.len()];
-    let mut lengths = Vec::with_capacity(plan.streets.len());
+/// The legs of every node, counter-clockwise by heading; those of one node after those of another.
+pub(super) struct Legs {
+    all: Vec<Leg>,
+    /// Where those of each node begin, and where the last ones end.
+    starts: Vec<usize>,
+}
+
+impl Legs {
+    /// How many nodes there are.
+    pub(super) fn nodes(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Those of all nodes.
+    pub(super) fn all(&self) -> &[Leg] {
+        &self.all
+    }
+
+    /// Those of each node.
+    pub(super) fn by_node(&self) -> impl Iterator<Item = &[Leg]> {
+        self.starts.windows(2).map(|ends| &self.all[ends[0]..ends[1]])
+    }
+
+    /// Works on those of each node.
+    fn edit(&mut self, mut work: impl FnMut(&mut [Leg])) {
+        self.starts.windows(2).for_each(|ends| work(&mut self.all[ends[0]..ends[1]]));
+    }
+}
+
+impl Index<usize> for Legs {
+    type Output = [Leg];
+
+    /// Those of a node.
+    fn index(&self, node: usize) -> &[Leg] {
+        &self.all[self.starts[node]..self.starts[node + 1]]
+    }
+}
+
+/// The end of a street at a node: in which direction the street leaves there, radians, which it is, and whether it begins there.
+type End = (f64, usize, bool);
+
+/// The ends of all streets by their nodes, counter-clockwise, and where those of each node begin.
+fn ends_by_node(plan: &StreetPlan) -> (Vec<End>, Vec<usize>) {
+    let mut starts = vec![0; plan.nodes.len() + 1];
+    for street in &plan.streets {
+        starts[street.from + 1] += 1;
+        starts[street.to + 1] += 1;
+    }
+    for node in 1..starts.len() {
+        starts[node] += starts[node - 1];
+    }
+    let (mut ends, mut next) = (vec![(0.0, 0, false); 2 * plan.streets.len()], starts.clone());
     for (index, street) in plan.streets.iter().enumerate() {
-        lengths.push(plan.length_of(street));
-        let section = plan.section(street);
-        let (left, right) = section.kerbs();
-        let (left_walk, right_walk) =
-            (section.left_of_reference() - left, section.right_of_reference() - right);
-        let swap = |at_start: bool, (a, b): (f64, f64)| if at_start { (a, b) } else { (b, a) };
-        let leaving = |node: usize, towards: Point2, at_start: bool| {
-            let (left, right) = swap(at_start, (left, right));
-            let (left_walk, right_walk) = swap(at_start, (left_walk, right_walk));
-            Leg {
-                street: index,
-                at_start,
-                heading: heading(&(towards - plan.nodes[node])),
-                left,
-                right,
-                left_walk,
-                right_walk,
-                reach: 0.0,
-                stop: 0.0,
-                walk: 0.0,
-                rounding: rounding(street.class),
-                wanted: 0.0,
-                turning: street.turning[usize::from(!at_start)],
-                hammerhead: street.hammerhead[usize::from(!at_start)],
-                node: plan.nodes[node],
-            }
-        };
         let first = street.via.first().copied().unwrap_or(plan.nodes[street.to]);
         let last = street.via.last().copied().unwrap_or(plan.nodes[street.from]);
-        legs[street.from].push(leaving(street.from, first, true));
-        legs[street.to].push(leaving(street.to, last, false));
+        for (node, towards, at_start) in [(street.from, first, true), (street.to, last, false)] {
+            ends[next[node]] = (heading(&(towards - plan.nodes[node])), index, at_start);
+            next[node] += 1;
+        }
     }
-    for legs in &mut legs {
-        legs.sort_by(|a, b| a.heading.total_cmp(&b.heading).then(a.street.cmp(&b.street)));
-        set_reaches(legs, config);
+    for node in starts.windows(2) {
+        ends[node[0]..node[1]].sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
+    (ends, starts)
+}
+
+/// The legs of a plan.
+pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Legs {
+    let widths: Vec<[(f64, f64); 2]> = plan.sections.iter().map(widths).collect();
+    let leg = |(heading, index, at_start): End| {
+        let street = &plan.streets[index];
+        let [mut left, mut right] = widths[street.section as usize];
+        if !at_start {
+            (left, right) = (right, left);
+        }
+        Leg {
+            street: index,
+            at_start,
+            heading,
+            ahead: direction(heading),
+            left: left.0,
+            right: right.0,
+            left_walk: left.1,
+            right_walk: right.1,
+            reach: 0.0,
+            stop: 0.0,
+            walk: 0.0,
+            rounding: rounding(street.class),
+            wanted: 0.0,
+            turning: street.turning[usize::from(!at_start)],
+            hammerhead: street.hammerhead[usize::from(!at_start)],
+            node: plan.nodes[if at_start { street.from } else { street.to }],
+        }
+    };
+    let (ends, starts) = ends_by_node(plan);
+    let mut legs = Legs { all: ends.into_iter().map(leg).collect(), starts };
+    legs.edit(|legs| set_reaches(legs, config));
+    let lengths: Vec<f64> = plan.streets.iter().map(|street| plan.length_of(street)).collect();
     fit_into_streets(&mut legs, &lengths);
     legs
 }
 
-/// The angle by which one turns left from leg `a` to leg `b`, in (0, 2π].
-fn angle_between(a: &Leg, b: &Leg) -> f64 {
-    let angle = (b.heading - a.heading).rem_euclid(TAU);
-    if angle == 0.0 { TAU } else { angle }
+/// The width of the carriageway, and of what lies beyond its kerb, to the left and to the right of the centreline, m.
+fn widths(section: &CrossSection) -> [(f64, f64); 2] {
+    let (left, right) = section.kerbs();
+    [(left, section.left_of_reference() - left), (right, section.right_of_reference() - right)]
+}
+
+/// The corner between a leg and the next one.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// The angle by which one turns left from the one to the other, in (0, 2π].
+    angle: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Corner {
+    fn between(leg: &Leg, next: &Leg) -> Self {
+        let angle = (next.heading - leg.heading).rem_euclid(TAU);
+        let angle = if angle == 0.0 { TAU } else { angle };
+        let (sin, cos) = crate::ops::sin_cos(angle);
+        Self { angle, sin, cos }
+    }
+
+    /// How far out the rounding of a corner between two kerbs begins, m; nothing where they diverge or the corner is so
+    /// acute that it would begin far away.
+    fn rounded_reach(&self, own: f64, other: f64, radius: f64) -> f64 {
+        if !(SHARPEST..PI - 0.05).contains(&self.angle) {
+            return 0.0;
+        }
+        self.edge_meeting(own, other) + radius * (1.0 + self.cos) / self.sin
+    }
+
+    /// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
+    ///
+    /// Edges of different width that are nearly one line would meet tens of metres away, where the streets may long have
+    /// turned; the one goes over into the other within the larger of the two widths instead.
+    fn edge_meeting(&self, own: f64, other: f64) -> f64 {
+        if self.angle >= PI - 0.05 {
+            return 0.0;
+        }
+        let met = ((other + own * self.cos) / self.sin).max(0.0);
+        if self.cos < 0.0 { met.min(own.max(other)) } else { met }
+    }
 }
 
 fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     let count = legs.len();
+    let corner = |index: usize, legs: &[Leg]| Corner::between(&legs[index], &legs[(index + 1) % count]);
+    // What comes before the first one lies between the last one and the first.
+    let Some(mut before_it) = count.checked_sub(1).map(|last| corner(last, legs)) else { return };
     for index in 0..count {
         let (before, after) = (&legs[(index + count - 1) % count], &legs[(index + 1) % count]);
         let leg = &legs[index];
-        let angles = (angle_between(leg, after), angle_between(before, leg));
+        let corners = (corner(index, legs), before_it);
+        before_it = corners.0;
         let (left, right) = (leg.left + leg.left_walk, leg.right + leg.right_walk);
-        let on_left = edge_meeting(left, after.right + after.right_walk, angles.0);
-        let on_right = edge_meeting(right, before.left + before.left_walk, angles.1);
+        let on_left = corners.0.edge_meeting(left, after.right + after.right_walk);
+        let on_right = corners.1.edge_meeting(right, before.left + before.left_walk);
         let reach = if count == 1 { DEAD_END_REACH } else { LEAST_REACH.max(on_left).max(on_right) };
-        let rounded = rounded_reach(leg.left, after.right, angles.0, leg.rounding.min(after.rounding))
-            .max(rounded_reach(leg.right, before.left, angles.1, leg.rounding.min(before.rounding)));
+        let rounded = (corners.0.rounded_reach(leg.left, after.right, leg.rounding.min(after.rounding)))
+            .max(corners.1.rounded_reach(leg.right, before.left, leg.rounding.min(before.rounding)));
         let leg = &mut legs[index];
         leg.reach = reach;
         leg.wanted = if count == 1 { 0.0 } else { (rounded - reach).max(0.0) };
@@ -155,50 +257,26 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     }
 }
 
-/// How far out the rounding of a corner between two kerbs begins, m; nothing where they diverge or the corner is so
-/// acute that it would begin far away.
-fn rounded_reach(own: f64, other: f64, angle: f64, radius: f64) -> f64 {
-    if !(SHARPEST..PI - 0.05).contains(&angle) {
-        return 0.0;
-    }
-    let (sin, cos) = crate::ops::sin_cos(angle);
-    edge_meeting(own, other, angle) + radius * (1.0 + cos) / sin
-}
-
-/// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
-///
-/// Edges of different width that are nearly one line would meet tens of metres away, where the streets may long have
-/// turned; the one goes over into the other within the larger of the two widths instead.
-fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
-    if angle >= PI - 0.05 {
-        return 0.0;
-    }
-    let (sin, cos) = crate::ops::sin_cos(angle);
-    let met = ((other + own * cos) / sin).max(0.0);
-    if cos < 0.0 { met.min(own.max(other)) } else { met }
-}
-
 /// Shortens what both ends take of a street that is too short for it: first room to turn and roundings, then the room
 /// for crossings and stop lines, then the reaches, for an area cut short of where kerbs meet would fold over itself.
-fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
-    for legs in legs.iter_mut() {
-        if let [leg] = legs.as_mut_slice() {
-            // A street that is not much longer than its turning circle or hammerhead has none.
-            let has_room = leg.turning > 0.0 || leg.hammerhead;
-            if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
-                (leg.turning, leg.hammerhead) = (0.0, false);
-                (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
-            }
+fn fit_into_streets(legs: &mut Legs, lengths: &[f64]) {
+    legs.edit(|legs| {
+        let [leg] = legs else { return };
+        // A street that is not much longer than its turning circle or hammerhead has none.
+        let has_room = leg.turning > 0.0 || leg.hammerhead;
+        if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
+            (leg.turning, leg.hammerhead) = (0.0, false);
+            (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
         }
-    }
+    });
     let mut asked = vec![(0.0, 0.0, 0.0); lengths.len()];
-    for leg in legs.iter().flatten() {
+    for leg in legs.all() {
         let (reach, stop, wanted) = &mut asked[leg.street];
         *reach += leg.reach;
         *stop += leg.stop;
         *wanted += leg.wanted;
     }
-    for leg in legs.iter_mut().flatten() {
+    for leg in &mut legs.all {
         let room = lengths[leg.street] - LEAST_LANE;
         let (reach, stop, wanted) = asked[leg.street];
         if stop <= room {

@@ -4,13 +4,17 @@ mod beside;
 mod connections;
 mod curve;
 mod cycles;
+mod ends;
+mod extent;
 mod hammerhead;
 mod kerbs;
 mod lanes;
 mod legs;
 mod mirror;
 mod near_side;
+mod outside;
 mod pieces;
+mod shape;
 mod signals;
 mod trace;
 mod walkways;
@@ -193,9 +197,8 @@ impl RoadNetwork {
     fn keeping_right(plan: &StreetPlan, config: &NetworkConfig, workers: &dyn Workers) -> Self {
         let legs = legs::of_plan(plan, config);
         let mut network = Self::default();
-        for street in &plan.streets {
-            network.roads.push(road(plan, street));
-        }
+        network.roads.reserve_exact(plan.streets.len());
+        network.roads.extend(plan.streets.iter().map(|street| road(plan, street)));
         network.names.clone_from(&plan.names);
         let place = |node: usize| {
             let legs = &legs[node];
@@ -204,16 +207,16 @@ impl RoadNetwork {
             let control = control.or(in_ring.then_some(Control::Priority));
             intersection((plan.nodes[node], plan.elevation(node)), legs, control, config)
         };
-        network.intersections.reserve_exact(legs.len());
-        network.intersections.extend(workers::each(workers, legs.len(), place));
+        network.intersections = workers::each(workers, legs.nodes(), place);
         lanes::add(&mut network, plan, &legs, config);
         walkways::add(&mut network, plan, &legs, config, workers);
-        for (node, legs) in legs.iter().enumerate() {
+        for (node, legs) in legs.by_node().enumerate() {
             signals::add(&mut network, IntersectionId::from_index(node), legs, config);
         }
-        let made = workers::collect(workers, legs.len().div_ceil(PART), |part| {
-            let nodes = part * PART..legs.len().min((part + 1) * PART);
-            connections::of_nodes(&network, plan, &legs, nodes)
+        let ends = ends::of_lanes(&network, workers);
+        let made = workers::collect(workers, legs.nodes().div_ceil(PART), |part| {
+            let nodes = part * PART..legs.nodes().min((part + 1) * PART);
+            connections::of_nodes(&network, plan, (&legs, &ends), nodes)
         });
         network.connections.reserve_exact(made.iter().map(Vec::len).sum());
         for part in made {

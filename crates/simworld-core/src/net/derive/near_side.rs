@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 
 use super::beside::Kerb;
-use super::curve::dense_curve;
+use super::curve::Curves;
 use super::legs::Leg;
 use crate::geometry::{Point2, direction, heading};
 use crate::net::polyline::{self, Measured};
@@ -42,6 +42,7 @@ fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
 /// What ways are looked for with, kept from one to the next.
 #[derive(Default)]
 pub(super) struct Search {
+    pub(super) curves: Curves,
     kerb: Kerb,
     /// The way that is tried.
     path: Vec<Point2>,
@@ -62,10 +63,10 @@ pub(super) fn keep_off(
     search: &mut Search,
 ) -> Vec<Point2> {
     search.kerb.set(kerb(intersection, leg));
-    let ends = search.kerb.beside(&way.start).min(search.kerb.beside(&way.end));
-    let wanted = CLEARANCE.min(ends) - MARGIN;
-    let mut best = (search.kerb.clearance(&smooth), smooth);
-    if best.0 >= wanted.min(LEAST_CLEARANCE) {
+    let wanted = search.kerb.clearance(&[way.start, way.end], CLEARANCE) - MARGIN;
+    let enough = wanted.min(LEAST_CLEARANCE);
+    let mut best = (search.kerb.clearance(&smooth, enough), smooth);
+    if best.0 >= enough {
         return best.1;
     }
     let legs = [way.from, way.to].map(|leg| outwards(network, leg));
@@ -76,7 +77,7 @@ pub(super) fn keep_off(
         if search.turn_later(way, (&from, into), (&to, out)).is_none() {
             break;
         }
-        if let Some(clear) = search.kerb.clearance_above(&search.path, best.0) {
+        if let Some(clear) = search.kerb.clearance_above(&search.path, best.0, wanted) {
             best.0 = clear;
             best.1.clone_from(&search.path);
         }
@@ -98,7 +99,7 @@ impl Search {
         (from, into): (&Measured<'_>, f64),
         (to, out): (&Measured<'_>, f64),
     ) -> Option<()> {
-        let Self { path, exit, middle, line, .. } = self;
+        let Self { curves, path, exit, middle, line, .. } = self;
         along(from, (way.from, way.start), into, (middle, line), path);
         path.reverse();
         along(to, (way.to, way.end), out, (middle, line), exit);
@@ -107,7 +108,7 @@ impl Search {
         if (end - start).norm() < LEAST_CHORD {
             return None;
         }
-        path.extend(dense_curve(start, direction(ahead), end, -direction(back)).skip(1));
+        path.extend(curves.dense_curve(start, direction(ahead), end, -direction(back)).skip(1));
         path.extend_from_slice(&exit[1..]);
         Some(())
     }

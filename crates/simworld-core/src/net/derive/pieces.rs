@@ -1,5 +1,6 @@
 //! Some pieces of a line, side by side: several are measured by each instruction.
 
+use super::extent::{greater, lesser};
 use crate::geometry::Point2;
 
 /// So many pieces are measured at once.
@@ -43,15 +44,18 @@ impl Pieces {
         std::array::from_fn(|lane| {
             let (to_x, to_y) = (point.x - self.x[lane], point.y - self.y[lane]);
             let (along_x, along_y) = (self.step_x[lane], self.step_y[lane]);
-            let share = share(to_x * along_x + to_y * along_y, lane).clamp(0.0, 1.0);
+            let share = lesser(greater(share(to_x * along_x + to_y * along_y, lane), 0.0), 1.0);
             let (away_x, away_y) = (to_x - along_x * share, to_y - along_y * share);
             away_x * away_x + away_y * away_y
         })
     }
 
-    /// Whether a point lies on the left of a piece.
-    pub(super) fn is_left(&self, lane: usize, point: &Point2) -> bool {
-        let (to_x, to_y) = (point.x - self.x[lane], point.y - self.y[lane]);
-        self.step_x[lane] * to_y - self.step_y[lane] * to_x >= 0.0
+    /// On which side of each piece a point lies: on the left, or on its line, where the number is not negative.
+    #[inline]
+    pub(super) fn sides(&self, point: &Point2) -> [f64; LANES] {
+        std::array::from_fn(|lane| {
+            let (to_x, to_y) = (point.x - self.x[lane], point.y - self.y[lane]);
+            self.step_x[lane] * to_y - self.step_y[lane] * to_x
+        })
     }
 }

@@ -3,7 +3,7 @@
 use super::NetworkConfig;
 use super::hammerhead;
 use super::kerbs;
-use super::legs::{self, Leg};
+use super::legs::{self, Leg, Legs};
 use super::workers::{self, Workers};
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId, RoadId, SidewalkId};
@@ -14,12 +14,12 @@ use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan};
 pub(super) fn add(
     network: &mut RoadNetwork,
     plan: &StreetPlan,
-    legs: &[Vec<Leg>],
+    legs: &Legs,
     config: &NetworkConfig,
     workers: &dyn Workers,
 ) {
     add_sidewalks(network, plan, legs, workers);
-    for (node, legs) in legs.iter().enumerate() {
+    for (node, legs) in legs.by_node().enumerate() {
         let id = IntersectionId::from_index(node);
         for leg in legs.iter().filter(|_| legs.len() >= 3) {
             // Nobody crosses the ring of a roundabout.
@@ -28,7 +28,7 @@ pub(super) fn add(
             }
         }
     }
-    let corners: Vec<_> = workers::each(workers, legs.len(), |node| corners(network, &legs[node])).collect();
+    let corners = workers::each(workers, legs.nodes(), |node| corners(network, &legs[node]));
     for (place, corners) in network.intersections.iter_mut().zip(corners) {
         place.corners = corners;
     }
@@ -38,15 +38,15 @@ fn joins_two_sidewalks(network: &RoadNetwork, leg: &Leg) -> bool {
     network.roads[leg.street].sidewalks.iter().all(Option::is_some)
 }
 
-fn add_sidewalks(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], workers: &dyn Workers) {
+fn add_sidewalks(network: &mut RoadNetwork, plan: &StreetPlan, legs: &Legs, workers: &dyn Workers) {
     let mut ends = vec![(0.0, 0.0); network.roads.len()];
-    for leg in legs.iter().flatten() {
+    for leg in legs.all() {
         let (start, end) = &mut ends[leg.street];
         *if leg.at_start { start } else { end } = leg.walk;
     }
     let roads = &network.roads;
     let beside = |index: usize| sidewalks(plan, index, &roads[index].centerline, ends[index]);
-    let all: Vec<_> = workers::each(workers, plan.streets.len(), beside).collect();
+    let all = workers::each(workers, plan.streets.len(), beside);
     network.sidewalks.reserve_exact(all.iter().flatten().flatten().count());
     for sidewalk in all.into_iter().flatten().flatten() {
         let id = SidewalkId::from_index(network.sidewalks.len());

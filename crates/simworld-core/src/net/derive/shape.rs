@@ -1,0 +1,117 @@
+//! The shape of a path as a whole: a look at another path from there says in most cases whether the two touch.
+
+use super::extent::{Extent, greater, lesser};
+use crate::geometry::{Point2, Vector2};
+
+/// Farther away than this no middle of a path that bends is looked for, m.
+const FARTHEST: f64 = 1e4;
+/// What is decided by less than this, m, is left to those who measure every piece, whatever was rounded.
+const SLACK: f64 = 1e-6;
+
+/// A path seen along and across the straight way between its ends, and from the middle about which it bends.
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
+    start: Point2,
+    end: Point2,
+    /// The straight way from the beginning to the end, and its length, m.
+    chord: Vector2,
+    length: f64,
+    /// What the path takes along and across its chord, times the length of that.
+    beside: Extent,
+    /// Of a path that bends the middle of the circle through its beginning, its middle and its end, and what the path takes of
+    /// the distance from there.
+    bend: Option<(Point2, Radii)>,
+    /// A quarter of the square of the length of its longest piece, m².
+    sag: f64,
+}
+
+impl Shape {
+    /// That of a path, of which the square of the length of the longest piece is given, m².
+    pub(super) fn of(path: &[Point2], longest: f64) -> Self {
+        let start = path.first().copied().unwrap_or_else(Point2::origin);
+        let end = path.last().copied().unwrap_or(start);
+        let (chord, sag) = (end - start, longest * 0.25);
+        let shape = Self { start, end, chord, length: chord.norm(), beside: Extent::NONE, bend: None, sag };
+        let bend = path.get(path.len() / 2).and_then(|middle| shape.center(middle - start));
+        Self {
+            beside: shape.seen(path),
+            bend: bend.map(|center| (center, Radii::of(path, center, sag))),
+            ..shape
+        }
+    }
+
+    /// The middle of the circle through both ends and a point that lies so far from the first; `None` where the three are as good as
+    /// on one line.
+    fn center(&self, middle: Vector2) -> Option<Point2> {
+        let twice = 2.0 * self.chord.perp(&middle);
+        let (far, near) = (self.chord.norm_squared(), middle.norm_squared());
+        let to_center =
+            Vector2::new(middle.y * far - self.chord.y * near, self.chord.x * near - middle.x * far) / twice;
+        (to_center.norm_squared() < FARTHEST * FARTHEST).then(|| self.start + to_center)
+    }
+
+    /// Where a point lies along and across the chord.
+    fn locate(&self, point: &Point2) -> [f64; 2] {
+        let (x, y) = (point.x - self.start.x, point.y - self.start.y);
+        [x * self.chord.x + y * self.chord.y, y * self.chord.x - x * self.chord.y]
+    }
+
+    fn seen(&self, path: &[Point2]) -> Extent {
+        let mut extent = Extent::NONE;
+        for point in path {
+            extent.add(self.locate(point));
+        }
+        extent
+    }
+
+    /// Whether another path comes nearer than `limit` m, where that is plain from here: it lies beside this one, or across it.
+    pub(super) fn touches(&self, other: &Self, path: &[Point2], limit: f64) -> Option<bool> {
+        let seen = self.seen(path);
+        if self.beside.apart(&seen) > (limit + SLACK) * self.length {
+            return Some(false);
+        }
+        // Who comes from one side of all of this one and leaves on the other, and is between its ends all the time, crosses it.
+        let slack = SLACK * self.length;
+        let is_between = seen.low[0] > slack && seen.high[0] < self.length * self.length - slack;
+        let (first, last) = (self.locate(&other.start)[1], self.locate(&other.end)[1]);
+        let (low, high) = (self.beside.low[1] - slack, self.beside.high[1] + slack);
+        (is_between && lesser(first, last) < low && greater(first, last) > high).then_some(true)
+    }
+
+    /// Whether a segment plainly lies beside the path.
+    pub(super) fn is_beside(&self, start: &Point2, end: &Point2) -> bool {
+        let mut seen = Extent::NONE;
+        seen.add(self.locate(start));
+        seen.add(self.locate(end));
+        self.beside.apart(&seen) > SLACK * self.length
+    }
+
+    /// Whether another path bends about the same middle, more than `limit` m farther out or in.
+    pub(super) fn is_round(&self, other: &Self, path: &[Point2], limit: f64) -> bool {
+        let is_apart = |(center, own): (Point2, Radii)| {
+            let seen = Radii::of(path, center, other.sag);
+            greater(seen.low.sqrt() - own.high.sqrt(), own.low.sqrt() - seen.high.sqrt()) > limit + SLACK
+        };
+        self.bend.is_some_and(is_apart)
+    }
+}
+
+/// The squares of the least and of the greatest distance of a path from a point, m²; the first may be less than it is.
+#[derive(Clone, Copy)]
+struct Radii {
+    low: f64,
+    high: f64,
+}
+
+impl Radii {
+    /// `sag` is by how much the square of the distance may be less within a piece than at its ends, m²: a quarter of the square of
+    /// its length.
+    fn of(path: &[Point2], center: Point2, sag: f64) -> Self {
+        let (mut low, mut high) = (f64::INFINITY, 0.0);
+        for point in path {
+            let squared = (point - center).norm_squared();
+            (low, high) = (lesser(squared, low), greater(squared, high));
+        }
+        Self { low: greater(low - sag, 0.0), high }
+    }
+}
