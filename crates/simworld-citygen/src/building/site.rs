@@ -8,6 +8,7 @@ use simworld_core::id::RoadId;
 use simworld_core::net::Side;
 
 use crate::lot::{Land, Lot};
+use crate::occupancy::{least, most};
 
 /// A lot and one of its streets.
 pub(super) struct Site<'a> {
@@ -100,7 +101,7 @@ impl<'a> Site<'a> {
     /// margin to either side.
     pub(super) fn room(&self, depth: f64, margin: f64) -> Option<(f64, f64)> {
         let (front, rear) = (self.front?, span(&self.local, self.setback + depth)?);
-        let (low, high) = (front.0.max(rear.0) + margin, front.1.min(rear.1) - margin);
+        let (low, high) = (most(front.0, rear.0) + margin, least(front.1, rear.1) - margin);
         (low < high).then_some((low, high))
     }
 
@@ -118,7 +119,7 @@ impl<'a> Site<'a> {
             for corner in corners {
                 let to = corner - start;
                 let (inwards, station) = (edge.perp(&to), to.dot(&edge));
-                (near, low, high) = (near.min(inwards), low.min(station), high.max(station));
+                (near, low, high) = (least(near, inwards), least(low, station), most(high, station));
             }
             if near / length <= farthest {
                 sum += ((high / length).min(length) - (low / length).max(0.0)).max(0.0);
@@ -134,21 +135,21 @@ const TOGETHER: usize = 32;
 /// From where to where an outline reaches at a height; its last corner stands first as well.
 pub(super) fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for first in (1..outline.len()).step_by(TOGETHER) {
-        let part = &outline[first - 1..outline.len().min(first + TOGETHER)];
-        let mut above = 0_u64;
-        for (place, corner) in part.iter().enumerate() {
-            above |= u64::from(corner.y > y) << place;
-        }
+    let mut rest = outline;
+    while rest.len() > 1 {
+        let part = &rest[..rest.len().min(TOGETHER)];
+        // A bit for each corner, the last one the lowest.
+        let above = part.iter().fold(0_u64, |above, corner| above << 1 | u64::from(corner.y > y));
         // The sides that cross: mostly two, and which they are differs from lot to lot.
         let mut crossing = (above ^ (above >> 1)) & ((1 << (part.len() - 1)) - 1);
         while crossing != 0 {
-            let place = crossing.trailing_zeros() as usize;
+            let place = part.len() - 2 - crossing.trailing_zeros() as usize;
             let (a, b) = (part[place], part[place + 1]);
             let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-            (low, high) = (low.min(x), high.max(x));
+            (low, high) = (least(low, x), most(high, x));
             crossing &= crossing - 1;
         }
+        rest = &rest[part.len() - 1..];
     }
     (low <= high).then_some((low, high))
 }

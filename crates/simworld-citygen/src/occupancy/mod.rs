@@ -134,13 +134,22 @@ fn are_near(taken: &[Point2], (low, high): Bounds) -> bool {
     !(taken_low.x >= high.x || low.x >= taken_high.x || taken_low.y >= high.y || low.y >= taken_high.y)
 }
 
+/// The lesser of two numbers, without the look for NaN of [`f64::min`].
+#[inline]
+pub(crate) fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The greater of two numbers, without the look for NaN of [`f64::max`].
+#[inline]
+pub(crate) fn most(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 /// The least and the greatest corner around some points.
 #[inline]
 fn bounds(points: &[Point2]) -> Option<Bounds> {
     let (first, rest) = points.split_first()?;
-    // Without the look for NaN of `f64::min`.
-    let least = |a: f64, b: f64| if b < a { b } else { a };
-    let most = |a: f64, b: f64| if b > a { b } else { a };
     Some(rest.iter().fold((*first, *first), |(low, high), point| {
         (
             Point2::new(least(low.x, point.x), least(low.y, point.y)),
