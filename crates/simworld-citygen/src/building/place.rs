@@ -124,7 +124,7 @@ impl<'a> Planner<'a> {
         let corners = std::mem::take(&mut self.corners);
         let site = Site::of(self.land, lot, edge, street, self.config.setback, corners)?;
         let mut blocked = std::mem::take(&mut self.blocked);
-        let gaps = (self.config.gap, self.most_spare() * 0.5);
+        let gaps = (self.config.gap, self.most_spare());
         let depths = (LEAST, self.deepest(&site).min(DEEPEST));
         blocked.look(&site, &self.plans.grounds[self.first..], depths, gaps, |depth| self.room(&site, depth));
         self.blocked = blocked;
@@ -150,8 +150,8 @@ impl<'a> Planner<'a> {
     /// Whether a spot keeps its distance from what was planned on the lot so far.
     fn is_free(&self, site: &Site<'_>, spot: Spot) -> bool {
         let planned = &self.plans.grounds[self.first..];
-        if planned.is_empty() {
-            return true;
+        if planned.is_empty() || self.blocked.meets(spot) {
+            return planned.is_empty();
         }
         let gap = self.config.gap;
         let wide = Spot { x: spot.x - gap, width: spot.width + 2.0 * gap, depth: spot.depth + gap };
@@ -184,15 +184,15 @@ impl<'a> Planner<'a> {
 
     /// Greedy filling: each kind gets its chance to be first, so that no filler dominates.
     fn filler(&self, site: &Site<'_>, room: (f64, f64), rng: &mut StreamRng) -> Choice {
-        let deepest = self.deepest(site);
-        for kind in self.weights.fillers(site.lot, rng.below(ARCHETYPES.len())) {
-            if kind.width.0 > room.1 - room.0
+        let (width, deepest) = (room.1 - room.0, self.deepest(site));
+        for kind in self.weights.fillers(site.lot, (width, deepest), rng.below(ARCHETYPES.len())) {
+            if kind.width.0 > width
                 || kind.depth.0 > deepest
                 || kind.weight(site.lot.zone, site.lot.density) <= 0.0
             {
                 continue;
             }
-            if self.blocked.is_sure(room, kind.width.0) {
+            if self.blocked.is_sure(room, kind.width) {
                 // It would fit at the first depth that is drawn, and stand where something stands.
                 rng.bits();
                 return Choice::Blocked;
