@@ -100,7 +100,8 @@ impl Occupancy {
     fn is_free_within(&self, outline: &Outline<'_>, bounds: Bounds, cells: Option<&Cells>) -> bool {
         let collides = |number| match (self.outlines.get(number), outline) {
             (Outline::Rectangle(taken), Outline::Rectangle(outline)) => {
-                are_near(taken, bounds) && rectangles_overlap(taken, outline)
+                // What is in cells beside it is mostly near it: cells that share a slot are told apart last.
+                rectangles_overlap(taken, outline) && are_near(taken, bounds)
             }
             (taken, outline) => {
                 let taken = taken.corners();
