@@ -65,7 +65,8 @@ impl Blocked {
         // It is as wide as it may be, and what is left of the room is before it by half at most. So with its gaps it takes at
         // least this, wherever it stands.
         let before = most(least(self.spare, end - start - widest), 0.0) * 0.5;
-        let (low, high) = (latest + before - self.gap + SLACK, start + least(room, widest) + self.gap - SLACK);
+        let (low, high) =
+            (latest + before - self.gap + SLACK, start + least(room, widest) + self.gap - SLACK);
         low < high && self.is_within(low, high)
     }
 

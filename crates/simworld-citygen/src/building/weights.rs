@@ -46,7 +46,9 @@ impl Weights {
             sums: rows,
             fillers: fillers.collect(),
             narrow: std::array::from_fn(|size| those(|kind| size == SIZES - 1 || kind.width.0 < below(size))),
-            shallow: std::array::from_fn(|size| those(|kind| size == SIZES - 1 || kind.depth.0 < below(size))),
+            shallow: std::array::from_fn(|size| {
+                those(|kind| size == SIZES - 1 || kind.depth.0 < below(size))
+            }),
         }
     }
 
