@@ -77,8 +77,7 @@ impl Weights {
         let level = ((lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
         let sums = &self.sums[lot.zone as usize * LEVELS + level];
         let drawn = rng.unit() * sums[ARCHETYPES.len() - 1];
-        // Sums rise, so those that are passed are counted, all at a time.
-        let passed = sums.iter().map(|sum| usize::from(*sum <= drawn)).sum::<usize>();
+        let passed = sums.partition_point(|sum| *sum <= drawn);
         &ARCHETYPES[passed.min(ARCHETYPES.len() - 1)]
     }
 }
