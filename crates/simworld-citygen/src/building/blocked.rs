@@ -85,8 +85,12 @@ impl Blocked {
 fn stretch(site: &Site<'_>, ground: &[Point2; 4], (near, far): (f64, f64)) -> Option<(f64, f64)> {
     let middle = nalgebra::center(&ground[0], &ground[2]);
     let corner = |index: usize| site.seen(middle + (ground[index] - middle) * SHRUNK);
-    let outline = [3, 0, 1, 2, 3].map(corner);
+    let [a, b, c, d] = [0, 1, 2, 3].map(corner);
+    let outline = [d, a, b, c, d];
     let (near, far) = (near + SLACK, far - SLACK);
+    if outline.iter().all(|corner| corner.y > far) || outline.iter().all(|corner| corner.y < near) {
+        return None;
+    }
     // It is widest at one of its corners, or where it leaves the strip.
     let ends = [near, far].into_iter().filter_map(|y| span(&outline, y));
     let within = outline.iter().filter(|corner| near <= corner.y && corner.y <= far);

@@ -3,6 +3,8 @@
 //! Lot frame: the origin is the first corner of the street's edge, x runs along the street, y into the lot. A building is
 //! a rectangle in this frame, so that its façade is parallel to the street.
 
+use std::cell::OnceCell;
+
 use simworld_core::geometry::{Point2, Vector2, heading};
 use simworld_core::id::RoadId;
 use simworld_core::net::Side;
@@ -15,8 +17,8 @@ pub(super) struct Site<'a> {
     pub(super) lot: &'a Lot,
     pub(super) road: RoadId,
     pub(super) side: Side,
-    /// Direction from the lot to the street, radians.
-    pub(super) facing: f64,
+    /// Direction from the lot to the street, radians, once it was asked for.
+    facing: OnceCell<f64>,
     /// How far the lot reaches inwards, m.
     pub(super) deep: f64,
     /// The corners of the lot in its frame, the last one first as well.
@@ -49,29 +51,33 @@ impl<'a> Site<'a> {
     ) -> Option<Self> {
         let outline = land.outline(lot);
         let origin = outline[edge];
-        let along = (outline[(edge + 1) % outline.len()] - origin).try_normalize(1e-9)?;
+        let along = (next(outline, edge) - origin).try_normalize(1e-9)?;
         let inwards = Vector2::new(-along.y, along.x);
         local.clear();
         let mut site = Self {
             lot,
             road,
             side,
-            facing: heading(&-inwards),
+            facing: OnceCell::new(),
             deep: 0.0,
-            local,
+            local: Vec::new(),
             setback,
             front: None,
             origin,
             along,
             inwards,
         };
-        for corner in outline.last().into_iter().chain(outline) {
-            let corner = site.seen(*corner);
-            site.local.push(corner);
-        }
-        site.deep = site.local.iter().map(|corner| corner.y).fold(0.0, f64::max);
+        local.extend(outline.last().map(|corner| site.seen(*corner)));
+        local.extend(outline.iter().map(|corner| site.seen(*corner)));
+        site.deep = local.iter().map(|corner| corner.y).fold(0.0, most);
+        site.local = local;
         site.front = span(&site.local, setback);
         Some(site)
+    }
+
+    /// Direction from the lot to the street, radians.
+    pub(super) fn facing(&self) -> f64 {
+        *self.facing.get_or_init(|| heading(&-self.inwards))
     }
 
     /// A point of the world in the lot frame.
@@ -112,7 +118,7 @@ impl<'a> Site<'a> {
         let mut sum = 0.0;
         for index in (0..borders.len()).filter(|index| borders[*index].is_street()) {
             let start = outline[index];
-            let edge = outline[(index + 1) % outline.len()] - start;
+            let edge = next(outline, index) - start;
             let length = edge.norm();
             // Of all corners the least and the greatest, times the length: what is least stays least when it is divided.
             let (mut near, mut low, mut high) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
@@ -127,6 +133,11 @@ impl<'a> Site<'a> {
         }
         sum
     }
+}
+
+/// The corner after one of an outline.
+fn next(outline: &[Point2], corner: usize) -> Point2 {
+    outline.get(corner + 1).copied().unwrap_or(outline[0])
 }
 
 /// Corners of an outline whose heights are compared together.
