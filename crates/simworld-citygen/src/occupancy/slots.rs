@@ -6,6 +6,8 @@
 
 use simworld_core::geometry::Point2;
 
+use super::{least, most};
+
 /// Width of a part of a cell, as its inverse, 1/m: a power of two, so that no rounding moves anything.
 const PARTS_PER_METRE: f64 = 8.0;
 /// Parts along one side of a cell. They are counted from one.
@@ -18,6 +20,10 @@ const BEYOND: u8 = 253;
 const NOWHERE: u8 = u8::MAX;
 /// Width of a grid cell, m: about two houses.
 const CELL: f64 = PARTS as f64 / PARTS_PER_METRE;
+/// The cell in the middle, counted from far away, and the most parts of a cell that something lies from it: beyond, all is
+/// taken to be there.
+const MIDDLE: i64 = 1 << 48;
+const FARTHEST: f64 = (1_i64 << 55) as f64;
 /// No block, and no outline.
 const NONE: u32 = u32::MAX;
 /// An outline as large as so many cells, or as long, is not filed.
@@ -82,8 +88,9 @@ impl Block {
     }
 
     fn put(&mut self, item: u32, window: Window) {
-        // Counted without a branch: how many there are, nothing foretells.
-        let place = self.items.iter().map(|item| usize::from(*item != NONE)).sum::<usize>().min(ROOM - 1);
+        // The first that is nowhere, without a branch: how many there are, nothing foretells.
+        let nowhere = !not_zero(!self.low[0]) & TOPS;
+        let place = (nowhere.trailing_zeros() as usize / 8).min(ROOM - 1);
         self.items[place] = item;
         let set = |lanes: &mut Lanes, byte: u8| {
             *lanes = *lanes & !(0xFF << (8 * place)) | Lanes::from(byte) << (8 * place);
@@ -209,10 +216,13 @@ impl Place {
     #[inline]
     fn of(x: f64) -> Self {
         // The floor, without the call into libm that the oldest processors need.
-        let parts = x * PARTS_PER_METRE;
+        let parts = least(most(x * PARTS_PER_METRE, -FARTHEST), FARTHEST);
         let towards_zero = parts as i64;
-        let floor = towards_zero.saturating_sub(i64::from(towards_zero as f64 > parts));
-        Self { cell: floor.div_euclid(PARTS), part: floor.rem_euclid(PARTS) as u8 + 1 }
+        let floor = towards_zero - i64::from(towards_zero as f64 > parts);
+        // Counted from far away, nothing is negative: that is divided sooner.
+        let counted = (floor + MIDDLE * PARTS) as u64;
+        let (cell, part) = (counted / PARTS as u64, counted % PARTS as u64);
+        Self { cell: cell as i64 - MIDDLE, part: part as u8 + 1 }
     }
 }
 
