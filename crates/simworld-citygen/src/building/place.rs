@@ -87,27 +87,33 @@ impl<'a> Planner<'a> {
     pub(super) fn plan_all(mut self, lots: &[Lot]) -> Plans {
         self.plans.buildings.reserve(lots.len() * 4 / 3);
         self.plans.grounds.reserve(lots.len() * 4 / 3);
-        for lot in lots {
+        // To begin a stream takes long, but many at once hardly longer.
+        let rngs: Vec<StreamRng> = lots.iter().map(|lot| self.rng(lot)).collect();
+        for (lot, mut rng) in lots.iter().zip(rngs) {
             self.first = self.plans.grounds.len();
-            self.plan(lot);
+            self.plan(lot, &mut rng);
         }
         access::lay(self.network, &mut self.plans.buildings);
         self.plans
     }
 
-    /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;
-    /// along its other streets what has room next to that.
-    fn plan(&mut self, lot: &Lot) {
-        let borders = self.land.borders(lot);
+    /// The stream of a lot: a function of where it lies.
+    fn rng(&self, lot: &Lot) -> StreamRng {
         let origin = self.land.outline(lot)[0];
         let key = |x: f64| (x * 100.0).round() as i64 as u64;
-        let mut rng = self.streams.indexed(key(origin.x)).indexed(key(origin.y)).rng();
+        self.streams.indexed(key(origin.x)).indexed(key(origin.y)).rng()
+    }
+
+    /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;
+    /// along its other streets what has room next to that.
+    fn plan(&mut self, lot: &Lot, rng: &mut StreamRng) {
+        let borders = self.land.borders(lot);
         if !rng.chance(self.config.density) {
             return;
         }
         for (edge, border) in borders.iter().enumerate() {
             if let Some(street) = border.as_street() {
-                self.line(lot, edge, street, &mut rng);
+                self.line(lot, edge, street, rng);
             }
         }
     }
@@ -271,7 +277,7 @@ impl<'a> Planner<'a> {
             place: archetype.place,
             name: None,
             center: site.at(middle, near + spot.depth * 0.5),
-            facing: site.facing,
+            facing: site.facing(),
             width: spot.width,
             depth: spot.depth,
             footprint,
