@@ -23,8 +23,10 @@ pub(super) struct Site<'a> {
     pub(super) deep: f64,
     /// The corners of the lot in its frame, the last one first as well.
     pub(super) local: Vec<Point2>,
-    /// Distance from the street to the façades, m, and from where to where the lot reaches there.
+    /// Distance from the street to the façades, m.
     setback: f64,
+    flanks: Flanks,
+    /// From where to where the lot reaches at the façades, m.
     front: Option<(f64, f64)>,
     origin: Point2,
     along: Vector2,
@@ -62,6 +64,7 @@ impl<'a> Site<'a> {
             deep: 0.0,
             local: Vec::new(),
             setback,
+            flanks: Flanks::default(),
             front: None,
             origin,
             along,
@@ -70,8 +73,9 @@ impl<'a> Site<'a> {
         local.extend(outline.last().map(|corner| site.seen(*corner)));
         local.extend(outline.iter().map(|corner| site.seen(*corner)));
         site.deep = local.iter().map(|corner| corner.y).fold(0.0, most);
+        site.flanks = Flanks::at(&local, setback);
         site.local = local;
-        site.front = span(&site.local, setback);
+        site.front = site.span(setback);
         Some(site)
     }
 
@@ -103,10 +107,15 @@ impl<'a> Site<'a> {
         (self.setback, self.setback + depth)
     }
 
+    /// From where to where the lot reaches at a distance from the street that is no less than the setback.
+    fn span(&self, y: f64) -> Option<(f64, f64)> {
+        if y < self.flanks.end { self.flanks.span(y) } else { span(&self.local, y) }
+    }
+
     /// The stations between which a rectangle from the setback to that depth beyond it lies within the lot, with a
     /// margin to either side.
     pub(super) fn room(&self, depth: f64, margin: f64) -> Option<(f64, f64)> {
-        let (front, rear) = (self.front?, span(&self.local, self.setback + depth)?);
+        let (front, rear) = (self.front?, self.span(self.setback + depth)?);
         let (low, high) = (most(front.0, rear.0) + margin, least(front.1, rear.1) - margin);
         (low < high).then_some((low, high))
     }
@@ -140,6 +149,46 @@ fn next(outline: &[Point2], corner: usize) -> Point2 {
     outline.get(corner + 1).copied().unwrap_or(outline[0])
 }
 
+/// The two sides of an outline that cross a height, and all heights above it up to an end. Most lots reach straight inwards:
+/// most of what is asked is answered by these two.
+#[derive(Default)]
+struct Flanks {
+    sides: [[Point2; 2]; 2],
+    end: f64,
+}
+
+impl Flanks {
+    /// The sides at a height, of an outline whose last corner stands first as well. If they are not two, nothing is below the
+    /// end.
+    fn at(outline: &[Point2], y: f64) -> Self {
+        let (mut sides, mut count) = ([[Point2::origin(); 2]; 2], 0);
+        let mut end = f64::INFINITY;
+        for pair in outline.windows(2) {
+            let (start, stop) = (pair[0].y > y, pair[1].y > y);
+            if stop {
+                end = least(end, pair[1].y);
+            }
+            if start != stop {
+                sides[count.min(1)] = [pair[0], pair[1]];
+                count += 1;
+            }
+        }
+        Self { sides, end: if count == 2 { end } else { f64::NEG_INFINITY } }
+    }
+
+    /// From where to where they reach at a height.
+    fn span(&self, y: f64) -> Option<(f64, f64)> {
+        let [one, other] = self.sides.map(|[a, b]| crossing(a, b, y));
+        Some((least(one, other), most(one, other)))
+    }
+}
+
+/// Where a side crosses a height.
+#[inline]
+fn crossing(a: Point2, b: Point2, y: f64) -> f64 {
+    a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))
+}
+
 /// Corners of an outline whose heights are compared together.
 const TOGETHER: usize = 32;
 
@@ -152,13 +201,12 @@ pub(super) fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
         // A bit for each corner, the last one the lowest.
         let above = part.iter().fold(0_u64, |above, corner| above << 1 | u64::from(corner.y > y));
         // The sides that cross: mostly two, and which they are differs from lot to lot.
-        let mut crossing = (above ^ (above >> 1)) & ((1 << (part.len() - 1)) - 1);
-        while crossing != 0 {
-            let place = part.len() - 2 - crossing.trailing_zeros() as usize;
-            let (a, b) = (part[place], part[place + 1]);
-            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+        let mut crosses = (above ^ (above >> 1)) & ((1 << (part.len() - 1)) - 1);
+        while crosses != 0 {
+            let place = part.len() - 2 - crosses.trailing_zeros() as usize;
+            let x = crossing(part[place], part[place + 1], y);
             (low, high) = (least(low, x), most(high, x));
-            crossing &= crossing - 1;
+            crosses &= crosses - 1;
         }
         rest = &rest[part.len() - 1..];
     }

@@ -33,6 +33,7 @@ pub(super) fn ensure(buildings: &mut [Building], rng: &mut StreamRng) {
     for place in &uses {
         counts[rank(*place)] += 1;
     }
+    let mut donors: Vec<u32> = Vec::new();
     for (place, _, _) in NEEDED {
         let missing = needed(place).saturating_sub(counts[rank(place)]);
         if missing == 0 {
@@ -48,10 +49,11 @@ pub(super) fn ensure(buildings: &mut [Building], rng: &mut StreamRng) {
             continue;
         };
         let given = missing.min(most);
-        let mut donors = Vec::with_capacity(counts[rank(donor)]);
-        donors.extend((0..total).filter(|index| uses[*index] == donor));
+        donors.clear();
+        donors.reserve(counts[rank(donor)]);
+        donors.extend((0..).zip(&uses).filter(|(_, other)| **other == donor).map(|(index, _)| index));
         rng.shuffle(&mut donors);
-        for index in donors.into_iter().take(given) {
+        for index in donors.iter().take(given).map(|index| *index as usize) {
             (buildings[index].place, uses[index]) = (place, place);
         }
         counts[rank(donor)] -= given;

@@ -184,8 +184,8 @@ fn has_separating_edge(a: &[Point2], b: &[Point2]) -> bool {
 /// The same of a rectangle. Each of its sides is a normal of the next: two say all, and say the same as
 /// `footprints_overlap`.
 #[inline]
-fn has_separating_side(a: &[Point2; 4], b: &[Point2]) -> bool {
-    separates(&(a[0] - a[1]), a, b) || separates(&(a[1] - a[2]), a, b)
+fn has_separating_side(a: &[Point2; 4], b: &(impl AsRef<[Point2]> + ?Sized)) -> bool {
+    separates(&(a[0] - a[1]), a, b.as_ref()) || separates(&(a[1] - a[2]), a, b.as_ref())
 }
 
 /// Whether two outlines lie apart along an axis.
