@@ -109,7 +109,7 @@ impl<'a> Site<'a> {
 
     /// From where to where the lot reaches at a distance from the street that is no less than the setback.
     fn span(&self, y: f64) -> Option<(f64, f64)> {
-        if y < self.flanks.end { self.flanks.span(y) } else { span(&self.local, y) }
+        if y < self.flanks.end { Some(self.flanks.span(y)) } else { span(&self.local, y) }
     }
 
     /// The stations between which a rectangle from the setback to that depth beyond it lies within the lot, with a
@@ -177,9 +177,9 @@ impl Flanks {
     }
 
     /// From where to where they reach at a height.
-    fn span(&self, y: f64) -> Option<(f64, f64)> {
+    fn span(&self, y: f64) -> (f64, f64) {
         let [one, other] = self.sides.map(|[a, b]| crossing(a, b, y));
-        Some((least(one, other), most(one, other)))
+        (least(one, other), most(one, other))
     }
 }
 
