@@ -155,9 +155,14 @@ impl<'a> Planner<'a> {
 
     /// Whether a spot keeps its distance from what was planned on the lot so far.
     fn is_free(&self, site: &Site<'_>, spot: Spot) -> bool {
+        !self.blocked.meets(spot) && self.is_apart(site, spot)
+    }
+
+    /// The same, whatever is known beforehand.
+    fn is_apart(&self, site: &Site<'_>, spot: Spot) -> bool {
         let planned = &self.plans.grounds[self.first..];
-        if planned.is_empty() || self.blocked.meets(spot) {
-            return planned.is_empty();
+        if planned.is_empty() {
+            return true;
         }
         let gap = self.config.gap;
         let wide = Spot { x: spot.x - gap, width: spot.width + 2.0 * gap, depth: spot.depth + gap };
