@@ -19,48 +19,49 @@ pub(super) fn lay(network: &RoadNetwork, buildings: &mut [Building]) {
         .collect();
     for (building, (path, width)) in buildings.iter_mut().zip(paths) {
         let door = building.access;
-        let best = nearest(path, door);
-        building.access = if path.is_empty() || (best - door).norm() < width {
-            best
+        let best = nearest(path, door, (f64::INFINITY, door));
+        building.access = if path.is_empty() || best.0.sqrt() < width {
+            best.1
         } else {
             round_corners(network, building, best)
         };
     }
 }
 
-/// The place nearest to a door on the walkways round the corners at both ends of its street, if it is nearer than another.
-fn round_corners(network: &RoadNetwork, building: &Building, mut best: Point2) -> Point2 {
-    let door = building.access;
+/// The place nearest to a door on the walkways round the corners at both ends of its street, if it is nearer than another at
+/// that squared distance.
+fn round_corners(network: &RoadNetwork, building: &Building, mut best: (f64, Point2)) -> Point2 {
     let road = &network.roads[building.road.index()];
     for intersection in [road.from, road.to] {
         for corner in network.intersections[intersection.index()].corners.iter().filter(|c| c.len() >= 2) {
-            let at = nearest(corner, door);
-            if (at - door).norm_squared() < (best - door).norm_squared() {
-                best = at;
-            }
+            best = nearest(corner, building.access, best);
         }
     }
-    best
+    best.1
 }
 
-/// The point of a path nearest to another; that itself if there is no path.
-fn nearest(path: &[Point2], point: Point2) -> Point2 {
-    let mut best = (f64::INFINITY, point);
+/// The squared distance to the point of a path that is nearest to another, and that point; those of another one if the path
+/// is no nearer.
+fn nearest(path: &[Point2], point: Point2, mut best: (f64, Point2)) -> (f64, Point2) {
     for pair in path.windows(2) {
         let (step, to) = (pair[1] - pair[0], point - pair[0]);
         let (squared, along) = (step.norm_squared(), to.dot(&step));
-        // Divided only where it is nearer; a hair of slack, so that rounding decides nothing.
-        let beside = along > 0.0 && along < squared;
-        let aside = to.perp(&step);
-        if beside && aside * aside > best.0 * squared * (1.0 + 1e-9) {
-            continue;
-        }
-        let share = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
-        let at = pair[0] + step * share;
+        let at = if along <= 0.0 || squared <= 0.0 {
+            pair[0]
+        } else if along >= squared {
+            pair[0] + step
+        } else {
+            // Divided only where it is nearer; a hair of slack, so that rounding decides nothing.
+            let aside = to.perp(&step);
+            if aside * aside > best.0 * squared * (1.0 + 1e-9) {
+                continue;
+            }
+            pair[0] + step * (along / squared)
+        };
         let distance = (point - at).norm_squared();
         if distance < best.0 {
             best = (distance, at);
         }
     }
-    best.1
+    best
 }

@@ -5,7 +5,8 @@
 
 use simworld_core::geometry::Point2;
 
-use super::site::{Site, span};
+use super::site::{Site, Spot, span};
+use crate::occupancy::{least, most};
 
 /// Distance by which things must meet to meet for sure, whatever is rounded, m.
 const SLACK: f64 = 1e-3;
@@ -15,18 +16,18 @@ const SHRUNK: f64 = 0.9999;
 /// What stands along a street, as far as it is sure to be met.
 #[derive(Default)]
 pub(super) struct Blocked {
-    /// From where to where something stands at the least depth.
+    /// From where to where something stands at the least depth and the gap behind it.
     stretches: Vec<(f64, f64)>,
     /// From where to where there is room at every depth.
     roomy: (f64, f64),
-    /// The gap that is kept, and the most room that is left free before a building, m.
+    /// The gap that is kept, and the most room that is left free on both sides of a building, m.
     gap: f64,
     spare: f64,
 }
 
 impl Blocked {
     /// Looks at what stands on a lot along one of its streets, whatever is to be built there: the least and the greatest depth,
-    /// the gap that it keeps, and the most of the room that it leaves free before it, m.
+    /// the gap that it keeps, and the most of the room that it leaves free on both sides, m.
     pub(super) fn look(
         &mut self,
         site: &Site<'_>,
@@ -40,27 +41,43 @@ impl Blocked {
             return;
         }
         // Lots are convex: what has room at two depths has room at every depth between.
-        let (Some(near), Some(far)) = (room(depths.0), room(depths.1)) else { return };
-        self.roomy = (near.0.max(far.0), near.1.min(far.1));
+        self.roomy = match (room(depths.0), room(depths.1)) {
+            (Some(near), Some(far)) => (most(near.0, far.0), least(near.1, far.1)),
+            _ => (f64::INFINITY, f64::NEG_INFINITY),
+        };
         (self.gap, self.spare) = (gap, spare);
-        let strip = site.depths(depths.0);
+        let strip = site.depths(depths.0 + gap);
         let stretches = grounds.iter().filter_map(|ground| stretch(site, ground, strip));
         self.stretches.extend(stretches);
     }
 
-    /// Whether a building at least so wide that is fitted between two stations surely fits, at the first depth that is tried,
-    /// and surely meets what stands there.
-    pub(super) fn is_sure(&self, (start, end): (f64, f64), width: f64) -> bool {
+    /// Whether a building of the least and the greatest width that is fitted between two stations surely fits, at the first
+    /// depth that is tried, and surely meets what stands there.
+    pub(super) fn is_sure(&self, (start, end): (f64, f64), (narrowest, widest): (f64, f64)) -> bool {
         if self.stretches.is_empty() {
             return false;
         }
-        let latest = start.max(self.roomy.0);
-        if end.min(self.roomy.1) - latest < width + SLACK {
+        let latest = most(start, self.roomy.0);
+        let room = least(end, self.roomy.1) - latest;
+        if room < narrowest + SLACK {
             return false;
         }
-        // With its gaps it takes at least this, wherever it stands in the room that it has.
-        let (low, high) = (latest + self.spare - self.gap + SLACK, start + width + self.gap - SLACK);
-        low < high && self.stretches.iter().any(|(from, to)| *from < high && low < *to)
+        // It is as wide as it may be, and what is left of the room is before it by half at most. So with its gaps it takes at
+        // least this, wherever it stands.
+        let before = most(least(self.spare, end - start - widest), 0.0) * 0.5;
+        let (low, high) =
+            (latest + before - self.gap + SLACK, start + least(room, widest) + self.gap - SLACK);
+        low < high && self.is_within(low, high)
+    }
+
+    /// Whether a building at a spot surely meets what stands there.
+    pub(super) fn meets(&self, spot: Spot) -> bool {
+        self.is_within(spot.x - self.gap + SLACK, spot.x + spot.width + self.gap - SLACK)
+    }
+
+    /// Whether something stands between two stations.
+    fn is_within(&self, low: f64, high: f64) -> bool {
+        self.stretches.iter().any(|(from, to)| *from < high && low < *to)
     }
 }
 
@@ -68,8 +85,12 @@ impl Blocked {
 fn stretch(site: &Site<'_>, ground: &[Point2; 4], (near, far): (f64, f64)) -> Option<(f64, f64)> {
     let middle = nalgebra::center(&ground[0], &ground[2]);
     let corner = |index: usize| site.seen(middle + (ground[index] - middle) * SHRUNK);
-    let outline = [3, 0, 1, 2, 3].map(corner);
+    let [a, b, c, d] = [0, 1, 2, 3].map(corner);
+    let outline = [d, a, b, c, d];
     let (near, far) = (near + SLACK, far - SLACK);
+    if outline.iter().all(|corner| corner.y > far) || outline.iter().all(|corner| corner.y < near) {
+        return None;
+    }
     // It is widest at one of its corners, or where it leaves the strip.
     let ends = [near, far].into_iter().filter_map(|y| span(&outline, y));
     let within = outline.iter().filter(|corner| near <= corner.y && corner.y <= far);

@@ -87,27 +87,33 @@ impl<'a> Planner<'a> {
     pub(super) fn plan_all(mut self, lots: &[Lot]) -> Plans {
         self.plans.buildings.reserve(lots.len() * 4 / 3);
         self.plans.grounds.reserve(lots.len() * 4 / 3);
-        for lot in lots {
+        // To begin a stream takes long, but many at once hardly longer.
+        let rngs: Vec<StreamRng> = lots.iter().map(|lot| self.rng(lot)).collect();
+        for (lot, mut rng) in lots.iter().zip(rngs) {
             self.first = self.plans.grounds.len();
-            self.plan(lot);
+            self.plan(lot, &mut rng);
         }
         access::lay(self.network, &mut self.plans.buildings);
         self.plans
     }
 
-    /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;
-    /// along its other streets what has room next to that.
-    fn plan(&mut self, lot: &Lot) {
-        let borders = self.land.borders(lot);
+    /// The stream of a lot: a function of where it lies.
+    fn rng(&self, lot: &Lot) -> StreamRng {
         let origin = self.land.outline(lot)[0];
         let key = |x: f64| (x * 100.0).round() as i64 as u64;
-        let mut rng = self.streams.indexed(key(origin.x)).indexed(key(origin.y)).rng();
+        self.streams.indexed(key(origin.x)).indexed(key(origin.y)).rng()
+    }
+
+    /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;
+    /// along its other streets what has room next to that.
+    fn plan(&mut self, lot: &Lot, rng: &mut StreamRng) {
+        let borders = self.land.borders(lot);
         if !rng.chance(self.config.density) {
             return;
         }
         for (edge, border) in borders.iter().enumerate() {
             if let Some(street) = border.as_street() {
-                self.line(lot, edge, street, &mut rng);
+                self.line(lot, edge, street, rng);
             }
         }
     }
@@ -124,7 +130,7 @@ impl<'a> Planner<'a> {
         let corners = std::mem::take(&mut self.corners);
         let site = Site::of(self.land, lot, edge, street, self.config.setback, corners)?;
         let mut blocked = std::mem::take(&mut self.blocked);
-        let gaps = (self.config.gap, self.most_spare() * 0.5);
+        let gaps = (self.config.gap, self.most_spare());
         let depths = (LEAST, self.deepest(&site).min(DEEPEST));
         blocked.look(&site, &self.plans.grounds[self.first..], depths, gaps, |depth| self.room(&site, depth));
         self.blocked = blocked;
@@ -149,6 +155,11 @@ impl<'a> Planner<'a> {
 
     /// Whether a spot keeps its distance from what was planned on the lot so far.
     fn is_free(&self, site: &Site<'_>, spot: Spot) -> bool {
+        !self.blocked.meets(spot) && self.is_apart(site, spot)
+    }
+
+    /// The same, whatever is known beforehand.
+    fn is_apart(&self, site: &Site<'_>, spot: Spot) -> bool {
         let planned = &self.plans.grounds[self.first..];
         if planned.is_empty() {
             return true;
@@ -184,15 +195,15 @@ impl<'a> Planner<'a> {
 
     /// Greedy filling: each kind gets its chance to be first, so that no filler dominates.
     fn filler(&self, site: &Site<'_>, room: (f64, f64), rng: &mut StreamRng) -> Choice {
-        let deepest = self.deepest(site);
-        for kind in self.weights.fillers(site.lot, rng.below(ARCHETYPES.len())) {
-            if kind.width.0 > room.1 - room.0
+        let (width, deepest) = (room.1 - room.0, self.deepest(site));
+        for kind in self.weights.fillers(site.lot, (width, deepest), rng.below(ARCHETYPES.len())) {
+            if kind.width.0 > width
                 || kind.depth.0 > deepest
                 || kind.weight(site.lot.zone, site.lot.density) <= 0.0
             {
                 continue;
             }
-            if self.blocked.is_sure(room, kind.width.0) {
+            if self.blocked.is_sure(room, kind.width) {
                 // It would fit at the first depth that is drawn, and stand where something stands.
                 rng.bits();
                 return Choice::Blocked;
@@ -271,7 +282,7 @@ impl<'a> Planner<'a> {
             place: archetype.place,
             name: None,
             center: site.at(middle, near + spot.depth * 0.5),
-            facing: site.facing,
+            facing: site.facing(),
             width: spot.width,
             depth: spot.depth,
             footprint,

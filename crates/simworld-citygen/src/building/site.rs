@@ -3,25 +3,30 @@
 //! Lot frame: the origin is the first corner of the street's edge, x runs along the street, y into the lot. A building is
 //! a rectangle in this frame, so that its façade is parallel to the street.
 
+use std::cell::OnceCell;
+
 use simworld_core::geometry::{Point2, Vector2, heading};
 use simworld_core::id::RoadId;
 use simworld_core::net::Side;
 
 use crate::lot::{Land, Lot};
+use crate::occupancy::{least, most};
 
 /// A lot and one of its streets.
 pub(super) struct Site<'a> {
     pub(super) lot: &'a Lot,
     pub(super) road: RoadId,
     pub(super) side: Side,
-    /// Direction from the lot to the street, radians.
-    pub(super) facing: f64,
+    /// Direction from the lot to the street, radians, once it was asked for.
+    facing: OnceCell<f64>,
     /// How far the lot reaches inwards, m.
     pub(super) deep: f64,
     /// The corners of the lot in its frame, the last one first as well.
     pub(super) local: Vec<Point2>,
-    /// Distance from the street to the façades, m, and from where to where the lot reaches there.
+    /// Distance from the street to the façades, m.
     setback: f64,
+    flanks: Flanks,
+    /// From where to where the lot reaches at the façades, m.
     front: Option<(f64, f64)>,
     origin: Point2,
     along: Vector2,
@@ -48,29 +53,35 @@ impl<'a> Site<'a> {
     ) -> Option<Self> {
         let outline = land.outline(lot);
         let origin = outline[edge];
-        let along = (outline[(edge + 1) % outline.len()] - origin).try_normalize(1e-9)?;
+        let along = (next(outline, edge) - origin).try_normalize(1e-9)?;
         let inwards = Vector2::new(-along.y, along.x);
         local.clear();
         let mut site = Self {
             lot,
             road,
             side,
-            facing: heading(&-inwards),
+            facing: OnceCell::new(),
             deep: 0.0,
-            local,
+            local: Vec::new(),
             setback,
+            flanks: Flanks::default(),
             front: None,
             origin,
             along,
             inwards,
         };
-        for corner in outline.last().into_iter().chain(outline) {
-            let corner = site.seen(*corner);
-            site.local.push(corner);
-        }
-        site.deep = site.local.iter().map(|corner| corner.y).fold(0.0, f64::max);
-        site.front = span(&site.local, setback);
+        local.extend(outline.last().map(|corner| site.seen(*corner)));
+        local.extend(outline.iter().map(|corner| site.seen(*corner)));
+        site.deep = local.iter().map(|corner| corner.y).fold(0.0, most);
+        site.flanks = Flanks::at(&local, setback);
+        site.local = local;
+        site.front = site.span(setback);
         Some(site)
+    }
+
+    /// Direction from the lot to the street, radians.
+    pub(super) fn facing(&self) -> f64 {
+        *self.facing.get_or_init(|| heading(&-self.inwards))
     }
 
     /// A point of the world in the lot frame.
@@ -96,11 +107,16 @@ impl<'a> Site<'a> {
         (self.setback, self.setback + depth)
     }
 
+    /// From where to where the lot reaches at a distance from the street that is no less than the setback.
+    fn span(&self, y: f64) -> Option<(f64, f64)> {
+        if y < self.flanks.end { Some(self.flanks.span(y)) } else { span(&self.local, y) }
+    }
+
     /// The stations between which a rectangle from the setback to that depth beyond it lies within the lot, with a
     /// margin to either side.
     pub(super) fn room(&self, depth: f64, margin: f64) -> Option<(f64, f64)> {
-        let (front, rear) = (self.front?, span(&self.local, self.setback + depth)?);
-        let (low, high) = (front.0.max(rear.0) + margin, front.1.min(rear.1) - margin);
+        let (front, rear) = (self.front?, self.span(self.setback + depth)?);
+        let (low, high) = (most(front.0, rear.0) + margin, least(front.1, rear.1) - margin);
         (low < high).then_some((low, high))
     }
 
@@ -111,14 +127,14 @@ impl<'a> Site<'a> {
         let mut sum = 0.0;
         for index in (0..borders.len()).filter(|index| borders[*index].is_street()) {
             let start = outline[index];
-            let edge = outline[(index + 1) % outline.len()] - start;
+            let edge = next(outline, index) - start;
             let length = edge.norm();
             // Of all corners the least and the greatest, times the length: what is least stays least when it is divided.
             let (mut near, mut low, mut high) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
             for corner in corners {
                 let to = corner - start;
                 let (inwards, station) = (edge.perp(&to), to.dot(&edge));
-                (near, low, high) = (near.min(inwards), low.min(station), high.max(station));
+                (near, low, high) = (least(near, inwards), least(low, station), most(high, station));
             }
             if near / length <= farthest {
                 sum += ((high / length).min(length) - (low / length).max(0.0)).max(0.0);
@@ -128,27 +144,71 @@ impl<'a> Site<'a> {
     }
 }
 
+/// The corner after one of an outline.
+fn next(outline: &[Point2], corner: usize) -> Point2 {
+    outline.get(corner + 1).copied().unwrap_or(outline[0])
+}
+
+/// The two sides of an outline that cross a height, and all heights above it up to an end. Most lots reach straight inwards:
+/// most of what is asked is answered by these two.
+#[derive(Default)]
+struct Flanks {
+    sides: [[Point2; 2]; 2],
+    end: f64,
+}
+
+impl Flanks {
+    /// The sides at a height, of an outline whose last corner stands first as well. If they are not two, nothing is below the
+    /// end.
+    fn at(outline: &[Point2], y: f64) -> Self {
+        let (mut sides, mut count) = ([[Point2::origin(); 2]; 2], 0);
+        let mut end = f64::INFINITY;
+        for pair in outline.windows(2) {
+            let (start, stop) = (pair[0].y > y, pair[1].y > y);
+            if stop {
+                end = least(end, pair[1].y);
+            }
+            if start != stop {
+                sides[count.min(1)] = [pair[0], pair[1]];
+                count += 1;
+            }
+        }
+        Self { sides, end: if count == 2 { end } else { f64::NEG_INFINITY } }
+    }
+
+    /// From where to where they reach at a height.
+    fn span(&self, y: f64) -> (f64, f64) {
+        let [one, other] = self.sides.map(|[a, b]| crossing(a, b, y));
+        (least(one, other), most(one, other))
+    }
+}
+
+/// Where a side crosses a height.
+#[inline]
+fn crossing(a: Point2, b: Point2, y: f64) -> f64 {
+    a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))
+}
+
 /// Corners of an outline whose heights are compared together.
 const TOGETHER: usize = 32;
 
 /// From where to where an outline reaches at a height; its last corner stands first as well.
 pub(super) fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for first in (1..outline.len()).step_by(TOGETHER) {
-        let part = &outline[first - 1..outline.len().min(first + TOGETHER)];
-        let mut above = 0_u64;
-        for (place, corner) in part.iter().enumerate() {
-            above |= u64::from(corner.y > y) << place;
-        }
+    let mut rest = outline;
+    while rest.len() > 1 {
+        let part = &rest[..rest.len().min(TOGETHER)];
+        // A bit for each corner, the last one the lowest.
+        let above = part.iter().fold(0_u64, |above, corner| above << 1 | u64::from(corner.y > y));
         // The sides that cross: mostly two, and which they are differs from lot to lot.
-        let mut crossing = (above ^ (above >> 1)) & ((1 << (part.len() - 1)) - 1);
-        while crossing != 0 {
-            let place = crossing.trailing_zeros() as usize;
-            let (a, b) = (part[place], part[place + 1]);
-            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-            (low, high) = (low.min(x), high.max(x));
-            crossing &= crossing - 1;
+        let mut crosses = (above ^ (above >> 1)) & ((1 << (part.len() - 1)) - 1);
+        while crosses != 0 {
+            let place = part.len() - 2 - crosses.trailing_zeros() as usize;
+            let x = crossing(part[place], part[place + 1], y);
+            (low, high) = (least(low, x), most(high, x));
+            crosses &= crosses - 1;
         }
+        rest = &rest[part.len() - 1..];
     }
     (low <= high).then_some((low, high))
 }

@@ -9,6 +9,9 @@ use crate::zoning::Zone;
 
 /// Steps of the density for which weights are known beforehand.
 const LEVELS: usize = 16;
+/// Steps of sizes for which kinds are known beforehand, 1/m and how many.
+const PER_METRE: f64 = 2.0;
+const SIZES: usize = 64;
 
 /// What kinds are drawn by.
 pub(super) struct Weights {
@@ -16,6 +19,9 @@ pub(super) struct Weights {
     sums: Vec<[f64; ARCHETYPES.len()]>,
     /// The kinds that fill gaps in each zone, a bit each.
     fillers: Vec<u32>,
+    /// The kinds that may be as narrow as a room, and as shallow, by steps of its size; those of its own step among them.
+    narrow: [u32; SIZES],
+    shallow: [u32; SIZES],
 }
 
 impl Weights {
@@ -34,21 +40,28 @@ impl Weights {
         let is_filler = |zone: Zone, kind: &Archetype| {
             is_filler(kind.place) && (kind.weight(zone, 0.0) > 0.0 || kind.weight(zone, 1.0) > 0.0)
         };
-        let fillers = Zone::ALL.iter().map(|zone| {
-            let kinds = ARCHETYPES.iter().enumerate().filter(|(_, kind)| is_filler(*zone, kind));
-            kinds.fold(0, |all, (index, _)| all | 1 << index)
-        });
-        Self { sums: rows, fillers: fillers.collect() }
+        let fillers = Zone::ALL.iter().map(|zone| those(|kind| is_filler(*zone, kind)));
+        let below = |size: usize| (size + 1) as f64 / PER_METRE;
+        Self {
+            sums: rows,
+            fillers: fillers.collect(),
+            narrow: std::array::from_fn(|size| those(|kind| size == SIZES - 1 || kind.width.0 < below(size))),
+            shallow: std::array::from_fn(|size| {
+                those(|kind| size == SIZES - 1 || kind.depth.0 < below(size))
+            }),
+        }
     }
 
-    /// The kinds that may fill gaps on a lot, beginning with one of a number or the next such; some of them may still be of no
-    /// weight there.
+    /// The kinds that may fill gaps on a lot in a room of that width and depth, beginning with one of a number or the next
+    /// such; some of them may still be a little too large, or of no weight there.
     pub(super) fn fillers(
         &self,
         lot: &Lot,
+        (width, depth): (f64, f64),
         first: usize,
     ) -> impl Iterator<Item = &'static Archetype> + use<> {
-        let all = self.fillers[lot.zone as usize];
+        let step = |size: f64| ((size * PER_METRE) as usize).min(SIZES - 1);
+        let all = self.fillers[lot.zone as usize] & self.narrow[step(width)] & self.shallow[step(depth)];
         let behind = all & (u32::MAX << first);
         // Those before the first come after the last.
         let mut left = u64::from(behind) | u64::from(all ^ behind) << u32::BITS;
@@ -64,10 +77,15 @@ impl Weights {
         let level = ((lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
         let sums = &self.sums[lot.zone as usize * LEVELS + level];
         let drawn = rng.unit() * sums[ARCHETYPES.len() - 1];
-        // Sums rise, so those that are passed are counted, all at a time.
-        let passed = sums.iter().map(|sum| usize::from(*sum <= drawn)).sum::<usize>();
+        let passed = sums.partition_point(|sum| *sum <= drawn);
         &ARCHETYPES[passed.min(ARCHETYPES.len() - 1)]
     }
+}
+
+/// The kinds of which something holds, a bit each.
+fn those(holds: impl Fn(&Archetype) -> bool) -> u32 {
+    let kinds = ARCHETYPES.iter().enumerate().filter(|(_, kind)| holds(kind));
+    kinds.fold(0, |all, (index, _)| all | 1 << index)
 }
 
 /// Whether a gap may be filled with such a place; large institutions are sampled, never fillers.

@@ -100,7 +100,8 @@ impl Occupancy {
     fn is_free_within(&self, outline: &Outline<'_>, bounds: Bounds, cells: Option<&Cells>) -> bool {
         let collides = |number| match (self.outlines.get(number), outline) {
             (Outline::Rectangle(taken), Outline::Rectangle(outline)) => {
-                are_near(taken, bounds) && rectangles_overlap(taken, outline)
+                // What is in cells beside it is mostly near it: cells that share a slot are told apart last.
+                rectangles_overlap(taken, outline) && are_near(taken, bounds)
             }
             (taken, outline) => {
                 let taken = taken.corners();
@@ -134,13 +135,22 @@ fn are_near(taken: &[Point2], (low, high): Bounds) -> bool {
     !(taken_low.x >= high.x || low.x >= taken_high.x || taken_low.y >= high.y || low.y >= taken_high.y)
 }
 
+/// The lesser of two numbers, without the look for NaN of [`f64::min`].
+#[inline]
+pub(crate) fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The greater of two numbers, without the look for NaN of [`f64::max`].
+#[inline]
+pub(crate) fn most(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 /// The least and the greatest corner around some points.
 #[inline]
 fn bounds(points: &[Point2]) -> Option<Bounds> {
     let (first, rest) = points.split_first()?;
-    // Without the look for NaN of `f64::min`.
-    let least = |a: f64, b: f64| if b < a { b } else { a };
-    let most = |a: f64, b: f64| if b > a { b } else { a };
     Some(rest.iter().fold((*first, *first), |(low, high), point| {
         (
             Point2::new(least(low.x, point.x), least(low.y, point.y)),
@@ -174,8 +184,8 @@ fn has_separating_edge(a: &[Point2], b: &[Point2]) -> bool {
 /// The same of a rectangle. Each of its sides is a normal of the next: two say all, and say the same as
 /// `footprints_overlap`.
 #[inline]
-fn has_separating_side(a: &[Point2; 4], b: &[Point2]) -> bool {
-    separates(&(a[0] - a[1]), a, b) || separates(&(a[1] - a[2]), a, b)
+fn has_separating_side(a: &[Point2; 4], b: &(impl AsRef<[Point2]> + ?Sized)) -> bool {
+    separates(&(a[0] - a[1]), a, b.as_ref()) || separates(&(a[1] - a[2]), a, b.as_ref())
 }
 
 /// Whether two outlines lie apart along an axis.

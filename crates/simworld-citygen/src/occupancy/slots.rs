@@ -6,6 +6,8 @@
 
 use simworld_core::geometry::Point2;
 
+use super::{least, most};
+
 /// Width of a part of a cell, as its inverse, 1/m: a power of two, so that no rounding moves anything.
 const PARTS_PER_METRE: f64 = 8.0;
 /// Parts along one side of a cell. They are counted from one.
@@ -18,6 +20,10 @@ const BEYOND: u8 = 253;
 const NOWHERE: u8 = u8::MAX;
 /// Width of a grid cell, m: about two houses.
 const CELL: f64 = PARTS as f64 / PARTS_PER_METRE;
+/// The cell in the middle, counted from far away, and the most parts of a cell that something lies from it: beyond, all is
+/// taken to be there.
+const MIDDLE: i64 = 1 << 48;
+const FARTHEST: f64 = (1_i64 << 55) as f64;
 /// No block, and no outline.
 const NONE: u32 = u32::MAX;
 /// An outline as large as so many cells, or as long, is not filed.
@@ -28,8 +34,6 @@ const FIRST_BITS: u32 = 5;
 const MOST_BITS: u32 = 14;
 /// Outlines in one block.
 const ROOM: usize = 7;
-/// Bounds in one block: one more than outlines, which is nowhere, so that as many are compared as fit into a word.
-const LANES: usize = 8;
 
 /// The least and the greatest corner of a box along the axes.
 pub(super) type Bounds = (Point2, Point2);
@@ -41,13 +45,33 @@ struct Window {
     high: [u8; 2],
 }
 
+/// Eight bytes, the first one the lowest.
+type Lanes = u64;
+/// The highest bit of each byte, and a byte for each.
+const TOPS: Lanes = 0x80 * EACH;
+const EACH: Lanes = 0x0101_0101_0101_0101;
+
+/// Sets the highest bit of each byte that is no less than its like; what the others are says nothing.
+#[inline]
+const fn no_less(a: Lanes, b: Lanes) -> Lanes {
+    // Without their highest bits no byte borrows from the next.
+    let rest = (a | TOPS) - (b & !TOPS);
+    (a & !b) | (!(a ^ b) & rest)
+}
+
+/// Sets the highest bit of each byte that is not zero; what the others are says nothing.
+#[inline]
+const fn not_zero(a: Lanes) -> Lanes {
+    a | ((a & !TOPS) + !TOPS)
+}
+
 /// Seven outlines of one slot, and the block that goes on. Bounds are compared all at a time, so each number stands beside
-/// its like; and before all else, for mostly nothing else is read.
+/// its like, a byte of eight; the eighth is nowhere. They stand before all else, for mostly nothing else is read.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 struct Block {
-    low: [[u8; LANES]; 2],
-    high: [[u8; LANES]; 2],
+    low: [Lanes; 2],
+    high: [Lanes; 2],
     next: u32,
     items: [u32; ROOM],
 }
@@ -55,7 +79,8 @@ struct Block {
 impl Block {
     /// A block without outlines.
     const fn before(next: u32) -> Self {
-        Self { low: [[NOWHERE; LANES]; 2], high: [[BEFORE; LANES]; 2], next, items: [NONE; ROOM] }
+        let (low, high) = ([NOWHERE as Lanes * EACH; 2], [BEFORE as Lanes * EACH; 2]);
+        Self { low, high, next, items: [NONE; ROOM] }
     }
 
     fn is_full(&self) -> bool {
@@ -63,29 +88,30 @@ impl Block {
     }
 
     fn put(&mut self, item: u32, window: Window) {
-        // Counted without a branch: how many there are, nothing foretells.
-        let place = self.items.iter().map(|item| usize::from(*item != NONE)).sum::<usize>().min(ROOM - 1);
+        // The first that is nowhere, without a branch: how many there are, nothing foretells.
+        let nowhere = !not_zero(!self.low[0]) & TOPS;
+        let place = (nowhere.trailing_zeros() as usize / 8).min(ROOM - 1);
         self.items[place] = item;
+        let set = |lanes: &mut Lanes, byte: u8| {
+            *lanes = *lanes & !(0xFF << (8 * place)) | Lanes::from(byte) << (8 * place);
+        };
         for axis in 0..2 {
-            (self.low[axis][place], self.high[axis][place]) = (window.low[axis], window.high[axis]);
+            set(&mut self.low[axis], window.low[axis]);
+            set(&mut self.high[axis], window.high[axis]);
         }
     }
 
     /// Which of its outlines are not apart from a box, and were not seen in a cell before: where both go on from there,
-    /// they were. A byte each, the first one the lowest.
+    /// they were. The highest bit of a byte each, the first one the lowest.
     #[inline]
     fn touching(&self, window: Window) -> u64 {
-        let mut touches = [true; LANES];
+        let mut touches = TOPS;
         for axis in 0..2 {
-            let (low, high) = (window.low[axis], window.high[axis]);
-            for (place, touches) in touches.iter_mut().enumerate() {
-                let own = self.low[axis][place];
-                *touches &= own <= high;
-                *touches &= low <= self.high[axis][place];
-                *touches &= own | low != BEFORE;
-            }
+            let own = self.low[axis];
+            let (low, high) = (Lanes::from(window.low[axis]) * EACH, Lanes::from(window.high[axis]) * EACH);
+            touches &= no_less(high, own) & no_less(self.high[axis], low) & not_zero(own | low);
         }
-        u64::from_le_bytes(touches.map(u8::from))
+        touches
     }
 }
 
@@ -190,10 +216,13 @@ impl Place {
     #[inline]
     fn of(x: f64) -> Self {
         // The floor, without the call into libm that the oldest processors need.
-        let parts = x * PARTS_PER_METRE;
+        let parts = least(most(x * PARTS_PER_METRE, -FARTHEST), FARTHEST);
         let towards_zero = parts as i64;
-        let floor = towards_zero.saturating_sub(i64::from(towards_zero as f64 > parts));
-        Self { cell: floor.div_euclid(PARTS), part: floor.rem_euclid(PARTS) as u8 + 1 }
+        let floor = towards_zero - i64::from(towards_zero as f64 > parts);
+        // Counted from far away, nothing is negative: that is divided sooner.
+        let counted = (floor + MIDDLE * PARTS) as u64;
+        let (cell, part) = (counted / PARTS as u64, counted % PARTS as u64);
+        Self { cell: cell as i64 - MIDDLE, part: part as u8 + 1 }
     }
 }
 
@@ -242,4 +271,20 @@ impl Cells {
 #[cfg(test)]
 pub(super) fn least_period() -> f64 {
     CELL * f64::from(1 << FIRST_BITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_compared_each_by_itself() {
+        for (a, b) in (0..=u8::MAX).flat_map(|a| (0..=u8::MAX).map(move |b| (a, b))) {
+            let mixed =
+                |even: u8, odd: u8| Lanes::from_le_bytes([even, odd, even, odd, even, odd, even, odd]);
+            let tops = |even: bool, odd: bool| mixed(u8::from(even) << 7, u8::from(odd) << 7);
+            assert_eq!(no_less(mixed(a, b), mixed(b, a)) & TOPS, tops(a >= b, b >= a), "{a} and {b}");
+            assert_eq!(not_zero(mixed(a, b)) & TOPS, tops(a != 0, b != 0), "{a} and {b}");
+        }
+    }
 }

@@ -25,7 +25,15 @@ fn sure_along(planner: &Planner<'_>, site: &Site<'_>) -> usize {
     while end - start >= LEAST {
         for kind in ARCHETYPES {
             let can_fit = kind.width.0 <= end - start && kind.depth.0 <= planner.deepest(site);
-            if !can_fit || !planner.blocked.is_sure((start, end), kind.width.0) {
+            if !can_fit {
+                continue;
+            }
+            let mut rng = Seed(5).stream("spots").rng();
+            if let Some(spot) = planner.fit(site, kind, (start, end), &mut rng) {
+                let meets = planner.blocked.meets(spot);
+                assert!(!meets || !planner.is_apart(site, spot), "{} would stand at {start}", kind.name);
+            }
+            if !planner.blocked.is_sure((start, end), kind.width) {
                 continue;
             }
             count += 1;
@@ -35,7 +43,7 @@ fn sure_along(planner: &Planner<'_>, site: &Site<'_>) -> usize {
                 once.bits();
                 let spot = planner.fit(site, kind, (start, end), &mut rng).expect("it surely fits");
                 assert_eq!(rng, once, "{} fits at the first depth", kind.name);
-                assert!(!planner.is_free(site, spot), "{} would stand at {start}", kind.name);
+                assert!(!planner.is_apart(site, spot), "{} would stand at {start}", kind.name);
             }
         }
         start += 0.7;
