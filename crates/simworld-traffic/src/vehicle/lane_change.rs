@@ -342,7 +342,8 @@ mod tests {
             let is_aside = tracks.beside[lane as usize].contains(&NONE);
             only_there.next().filter(|_| is_aside).map(|leg| ([lane, middle, far], leg))
         };
-        let (lanes, goal) = (0..tracks.lanes as Track).find_map(across).expect("one turns left from the left");
+        let (lanes, goal) =
+            (0..tracks.lanes as Track).find_map(across).expect("one turns left from the left");
         let mut vehicles = VehicleManager::new(&tracks);
         let own = Leg::of(&tracks.network, simworld_core::id::LaneId(lanes[0]));
         let route = vehicles.add_route(Route(vec![own, goal]));
