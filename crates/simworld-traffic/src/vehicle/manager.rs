@@ -8,7 +8,7 @@
 //! 3. *Settle*: those handed over join their lanes, junctions that were cleared become free, claims on crossings are counted.
 //!
 //! A part writes its own vehicles only. Of other parts it sees what they show, and the sums in [`Junctions`], which nobody reads
-//! in the phase in which others add to them. Who goes out on the oncoming lane is decided [before](super::passing). The result is the same on any number of threads. Parts far from all interest go in
+//! in the phase in which others add to them. Who goes out on the oncoming lane is decided [before](super::driving::passing). The result is the same on any number of threads. Parts far from all interest go in
 //! one step of several ([`Clock`](super::clock::Clock)).
 
 use serde::{Deserialize, Serialize};
@@ -16,27 +16,27 @@ use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
 use super::clock::Moment;
-use super::closures::Closures;
-use super::clusters::{Permit, Wish};
-use super::controls::{Controls, hasty};
-use super::deadlock::Waits;
-use super::delays::Delays;
-use super::detours::Detours;
-use super::entry::route_way;
-use super::halts::Halts;
-use super::junction::Junctions;
+use super::driving::passing::Passings;
+use super::driving::sirens::Sirens;
+use super::foreign::controls::{Controls, hasty};
+use super::junctions::clusters::{Permit, Wish};
+use super::junctions::deadlock::Waits;
+use super::junctions::junction::Junctions;
+use super::junctions::trailing::Trail;
 use super::part::{Part, Transfer};
-use super::passing::Passings;
-use super::path::Path;
-use super::reroute::Rounds;
-use super::sirens::Sirens;
-use super::slabs::Slabs;
-use super::storage::Storage;
-use super::tail::Tail;
-use super::tally::Tally;
+use super::queues::path::Path;
+use super::queues::slabs::Slabs;
+use super::queues::storage::Storage;
+use super::queues::tail::Tail;
+use super::queues::tally::Tally;
 use super::threads::each;
+use super::tracks::closures::Closures;
 use super::tracks::{Obstacle, Track, Tracks};
-use super::trailing::Trail;
+use super::trips::delays::Delays;
+use super::trips::detours::Detours;
+use super::trips::entry::route_way;
+use super::trips::halts::Halts;
+use super::trips::reroute::Rounds;
 use super::types::{TypeIndex, VehicleType, is_long};
 use crate::{Counters, Leg, Route, TrafficConfig, Trip};
 
@@ -247,7 +247,7 @@ pub(crate) struct VehicleManager {
 
 impl VehicleManager {
     pub(crate) fn new(tracks: &Tracks) -> Self {
-        let part = |layout: &super::layout::PartLayout| Slabs::new(layout.tracks.len());
+        let part = |layout: &super::tracks::layout::PartLayout| Slabs::new(layout.tracks.len());
         let slabs = tracks.layout.parts.iter().map(part);
         Self {
             parts: slabs.enumerate().map(|(number, slabs)| Part::new(number, slabs)).collect(),

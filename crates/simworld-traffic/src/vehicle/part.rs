@@ -2,23 +2,23 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::claims::Claims;
 use super::clock::Clock;
-use super::clusters::Wish;
-use super::controls::obey;
-use super::entry::trip;
-use super::ghosts::Ghost;
-use super::idm::advance;
-use super::junction::{Request, ticks};
-use super::layout::PartLayout;
-use super::lookahead::{self, Lane};
+use super::driving::idm::advance;
+use super::driving::lookahead::{self, Lane};
+use super::driving::sirens::passes_red;
+use super::foreign::controls::obey;
+use super::junctions::clusters::Wish;
+use super::junctions::junction::{Request, ticks};
+use super::junctions::trailing::Trail;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
-use super::path::Path;
-use super::sirens::passes_red;
-use super::slabs::Slabs;
-use super::tail::Tail;
+use super::queues::claims::Claims;
+use super::queues::ghosts::Ghost;
+use super::queues::path::Path;
+use super::queues::slabs::Slabs;
+use super::queues::tail::Tail;
+use super::tracks::layout::PartLayout;
 use super::tracks::{Track, Tracks};
-use super::trailing::Trail;
+use super::trips::entry::trip;
 use crate::{Counters, Trip, TripEnd};
 
 /// Standing longer than this is counted, s.

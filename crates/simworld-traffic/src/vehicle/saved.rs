@@ -2,10 +2,10 @@
 
 use simworld_core::hash::StateHasher;
 
-use super::layout::PartLayout;
 use super::manager::{EXIT, NONE, VehicleManager};
 use super::part::Part;
 use super::tracks::Tracks;
+use super::tracks::layout::PartLayout;
 
 impl VehicleManager {
     /// Whether a saved state is one of this network.

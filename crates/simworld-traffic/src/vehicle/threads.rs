@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use simworld_core::net::Workers;
 
-use super::layout::MOST_PARTS;
+use super::tracks::layout::MOST_PARTS;
 
 /// Calls `work` once with each item and its number, on the threads of the workers, and returns when all are done. Asks nothing
 /// of the heap for up to [`MOST_PARTS`] items; what is beyond is worked on here.

@@ -1,0 +1,172 @@
+//! MOBIL (Kesting, Treiber and Helbing 2007): change if one's own gain exceeds the threshold and the politeness times what
+//! others lose, and nobody behind has to brake harder than is safe.
+
+use serde::{Deserialize, Serialize};
+
+use super::lane_change::stretch;
+use crate::vehicle::foreign::strangers;
+use crate::vehicle::manager::{NONE, Scene, Vehicle};
+use crate::vehicle::part::Part;
+use crate::vehicle::tracks::Track;
+
+/// When drivers change lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Mobil {
+    /// Weight of what others lose against one's own gain, in [0, 2]; 0 is an egoist.
+    pub politeness: f64,
+    /// Gain below which one stays, m/s², in [0, 5].
+    pub threshold: f64,
+    /// Hardest braking to which one forces another, m/s², in [0.5, 8].
+    pub safe_braking: f64,
+}
+
+impl Default for Mobil {
+    /// The values of the model's authors.
+    fn default() -> Self {
+        Self { politeness: 0.3, threshold: 0.2, safe_braking: 4.0 }
+    }
+}
+
+/// What a lane of one's own is worth, m/s²: buses keep to bus lanes, riders to cycle lanes and else to the right.
+const OWN_LANE: f64 = 2.0;
+
+/// Who is before and behind a place in a lane.
+struct Neighbours {
+    ahead: Option<(f64, f64)>,
+    behind: Option<(f64, f64)>,
+    rank: usize,
+}
+
+impl Part {
+    /// The advantage of a lane, m/s², and the place in its queue; `None` if it is not safe or not worth it. One must change, or the lane
+    /// leads on better by so many grades.
+    pub(in crate::vehicle) fn gain(
+        &self,
+        scene: &Scene<'_>,
+        (lane, rank): (Track, usize),
+        target: Track,
+        (must, better): (bool, f64),
+    ) -> Option<(f64, usize)> {
+        let Scene { tracks, config, .. } = scene;
+        let mobil = &config.mobil;
+        let queue = self.slabs.queue(tracks.layout.local(lane));
+        let vehicle = queue[rank];
+        let row = config.vehicle_type(vehicle.row);
+        let length = vehicle.length();
+        let s = vehicle.s * stretch(tracks, lane, target);
+        if s >= tracks.length[target as usize] - 1.0 || (s - length) < 0.5 {
+            return None;
+        }
+        let there = self.neighbours(tracks.layout.local(target), s, length);
+        let (ahead, behind) = self.room(scene, &there, &vehicle, s, target)?;
+        let free = |lane: Track| row.free_speed(config, vehicle.factor, tracks.speed[lane as usize]);
+        let follower = self.slabs.queue(tracks.layout.local(target)).get(there.rank);
+        let dt = scene.at.dt;
+        let leader_speed = there.ahead.map_or(0.0, |a| a.1);
+        let mine = row.drive(vehicle.v, free(target), (ahead, leader_speed), dt);
+        let follower = follower.map(|other| {
+            let row = config.vehicle_type(other.row);
+            let free = row.free_speed(config, other.factor, tracks.speed[target as usize]);
+            let alone = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - (s - length - behind));
+            let before = row.drive(other.v, free, (alone, leader_speed), dt);
+            (before, row.drive(other.v, free, (behind, vehicle.v), dt))
+        });
+        let safe = -mobil.safe_braking;
+        if mine < safe || follower.is_some_and(|(_, after)| after < safe) {
+            return None;
+        }
+        if must {
+            return Some((1e3 + mine, there.rank));
+        }
+        // With a siren every gain is worth it, and what others lose is nothing.
+        let siren = scene.sirens.is_on(vehicle.id);
+        let (politeness, threshold) = if siren { (0.0, 0.0) } else { (mobil.politeness, mobil.threshold) };
+        let (now, left_behind) = staying(scene, queue, rank, lane);
+        let suits = |lane: Track| {
+            let stops_there = vehicle.halt.is_finite() && tracks.outermost[lane as usize];
+            tracks.suits(lane, row.kind) + 2 * i8::from(stops_there)
+        };
+        let own = f64::from(suits(target) - suits(lane)) * OWN_LANE;
+        let loss = follower.map_or(0.0, |(before, after)| before - after);
+        let gain = mine - now + own + better * OWN_LANE + politeness * (left_behind - loss);
+        (gain > threshold).then_some((gain, there.rank))
+    }
+
+    /// The gaps before and behind a place in a lane; nothing if one must not go there, however safe it would be.
+    fn room(
+        &self,
+        scene: &Scene<'_>,
+        there: &Neighbours,
+        vehicle: &Vehicle,
+        s: f64,
+        target: Track,
+    ) -> Option<(f64, f64)> {
+        let rear = s - vehicle.length();
+        let ahead = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - s);
+        let behind = there.behind.map_or(f64::INFINITY, |(front, _)| rear - front);
+        let gap = scene.config.vehicle_type(vehicle.row).driver.gap;
+        let least = if vehicle.v < 1.0 { 0.5 } else { gap * 0.5 };
+        // Who has leave to cross is not cut off: the junction waits for it.
+        let follower = self.slabs.queue(scene.tracks.layout.local(target)).get(there.rank);
+        let cuts_off =
+            follower.is_some_and(|follower| follower.holding != NONE && follower.holding == follower.next);
+        // Whoever comes out of the junction behind has not joined the queue yet.
+        let comes = there.behind.is_none() && scene.junctions.inbound(target) > 0.0 && rear < 25.0;
+        let braking = scene.config.mobil.safe_braking;
+        let strangers = strangers::let_in(&scene.sight, target, (rear, vehicle.v), least, braking);
+        (ahead >= least && behind >= least && !cuts_off && !comes && strangers).then_some((ahead, behind))
+    }
+
+    /// Those around a place in a lane, bodies that are changing out of it included.
+    fn neighbours(&self, lane: usize, s: f64, length: f64) -> Neighbours {
+        let queue = self.slabs.queue(lane);
+        let rank = queue.partition_point(|other| other.s >= s);
+        let mut ahead = rank.checked_sub(1).map(|rank| (queue[rank].s - queue[rank].length(), queue[rank].v));
+        let behind = queue.get(rank).map(|other| (other.s, other.v));
+        // One that is beside the place counts as ahead, with a gap that forbids the change.
+        for ghost in self.ghosts(lane) {
+            let beside = ghost.rear + ghost.length > s - length - 1.0;
+            if beside && ahead.is_none_or(|ahead| ghost.rear < ahead.0) {
+                ahead = Some((ghost.rear, ghost.v));
+            }
+        }
+        Neighbours { ahead, behind, rank }
+    }
+}
+
+/// The acceleration of a vehicle that stays in its lane, and what the one behind it gains if it leaves, m/s².
+fn staying(scene: &Scene<'_>, queue: &[Vehicle], rank: usize, lane: Track) -> (f64, f64) {
+    let Scene { tracks, config, at, .. } = scene;
+    let vehicle = &queue[rank];
+    let limit = tracks.speed[lane as usize];
+    let drive = |other: &Vehicle, gap: f64, leader: f64| {
+        let row = config.vehicle_type(other.row);
+        row.drive(other.v, row.free_speed(config, other.factor, limit), (gap, leader), at.dt)
+    };
+    let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
+    let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.length() - s);
+    let speed = leader.map_or(0.0, |leader| leader.v);
+    let now = drive(vehicle, gap(vehicle.s), speed);
+    let gain = queue.get(rank + 1).map_or(0.0, |other| {
+        let near = vehicle.s - vehicle.length() - other.s;
+        drive(other, gap(other.s), speed) - drive(other, near, vehicle.v)
+    });
+    (now, gain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vehicle::Idm;
+
+    #[test]
+    fn the_defaults_never_ask_for_harder_braking_than_tyres_give() {
+        let mobil = Mobil::default();
+        assert!(mobil.safe_braking < crate::vehicle::HARDEST_BRAKING);
+        let idm = Idm::default();
+        // A gap of the model's own headway is safe, half a car length at speed is not.
+        assert!(idm.acceleration(10.0, 13.9, 12.0, 10.0) > -mobil.safe_braking);
+        assert!(idm.acceleration(10.0, 13.9, 2.0, 10.0) < -mobil.safe_braking);
+    }
+}
