@@ -12,6 +12,7 @@ use crate::vehicle::junctions::patience::PATIENCE;
 use crate::vehicle::manager::{EXIT, NONE, Scene, Vehicle, VehicleManager};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::ghosts::{BLOCK_SEEN, Ghost, first_block, sort};
+use crate::vehicle::queues::path::Path;
 use crate::vehicle::tracks::closures::Closures;
 use crate::vehicle::tracks::{Track, Tracks};
 
@@ -171,10 +172,7 @@ impl Part {
             return Some(EXIT);
         }
         let path = &self.slabs.paths(local)[rank];
-        let own = || VehicleManager::next_leg(tracks, scene.routes, (lane, vehicle), path);
-        let wanted = scene.controls.next_leg(vehicle.id).or_else(own);
-        let after = scene.routes.get(path.route as usize);
-        let after = after.and_then(|route| route.0.get(path.leg as usize + 2..)).unwrap_or_default();
+        let (wanted, after) = wanted(scene, (lane, vehicle), path);
         // A lane on the way to one that leads on is a step towards it.
         let towards = |leg| {
             (wish.lost && leads_towards(tracks, scene.closures, lane, target, (leg, after), kind))
@@ -194,16 +192,13 @@ impl Part {
 
     /// How many lanes over the nearest one is that leads one on whose own does not; one if there is none.
     pub(super) fn changes_needed(&self, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> usize {
-        let Scene { tracks, routes, closures, .. } = scene;
+        let Scene { tracks, closures, .. } = scene;
         let local = tracks.layout.local(lane);
         let rank = self.slabs.queue(local).iter().position(|other| other.id == vehicle.id);
         let Some(path) = rank.and_then(|rank| self.slabs.paths(local).get(rank)) else { return 1 };
-        let own = || VehicleManager::next_leg(tracks, routes, (lane, vehicle), path);
-        let Some(wanted) = scene.controls.next_leg(vehicle.id).or_else(own) else { return 1 };
-        let after = routes.get(path.route as usize);
-        let after = after.and_then(|route| route.0.get(path.leg as usize + 2..)).unwrap_or_default();
+        let (Some(leg), after) = wanted(scene, (lane, vehicle), path) else { return 1 };
         let kind = scene.config.vehicle_type(vehicle.row).kind;
-        let leads_on = |lane: &Track| tracks.way_on(closures, *lane, (wanted, after), kind).is_some();
+        let leads_on = |lane: &Track| tracks.way_on(closures, *lane, (leg, after), kind).is_some();
         let sides = [0, 1].map(|side| tracks.beside_on(lane, side).position(|lane| leads_on(&lane)));
         sides.into_iter().flatten().min().map_or(1, |between| between + 1)
     }
@@ -251,6 +246,18 @@ impl Part {
         self.slabs.insert(to, place, vehicle, path);
         self.work.counters.lane_changes += 1;
     }
+}
+
+/// The leg to which a driver wants to go next, as he was told or by his route, and those after it.
+fn wanted<'a>(
+    scene: &Scene<'a>,
+    (lane, vehicle): (Track, &Vehicle),
+    path: &Path,
+) -> (Option<Leg>, &'a [Leg]) {
+    let own = || VehicleManager::next_leg(scene.tracks, scene.routes, (lane, vehicle), path);
+    let route = scene.routes.get(path.route as usize);
+    let after = route.and_then(|route| route.0.get(path.leg as usize + 2..)).unwrap_or_default();
+    (scene.controls.next_leg(vehicle.id).or_else(own), after)
 }
 
 /// How quickly a vehicle moves aside at a speed, m/s.
@@ -322,7 +329,6 @@ mod tests {
     use super::*;
     use crate::vehicle::clock::Moment;
     use crate::vehicle::manager::Sight;
-    use crate::vehicle::queues::path::Path;
     use crate::{Route, TrafficConfig};
 
     #[test]
