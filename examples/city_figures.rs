@@ -6,7 +6,9 @@
 //! cargo run --release --example city_figures
 //! ```
 
+use std::fs;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
@@ -18,6 +20,7 @@ use simworld_citygen::element::{self, Setting};
 use simworld_citygen::growth;
 use simworld_citygen::lot::Land;
 use simworld_citygen::occupancy::Occupancy;
+use simworld_citygen::osm::{Fill, Place, PlaceOptions, StreetOptions};
 use simworld_citygen::tile::{TileConfig, TileId, TileSource};
 use simworld_citygen::zoning::Zoning;
 use simworld_citygen::{AllThreads, City, CityConfig, Style};
@@ -28,6 +31,7 @@ use simworld_core::net::{
     WaypointGraph,
 };
 use simworld_core::seed::Seed;
+use simworld_examples::city::as_extract;
 
 /// Measures how fast cities are made, stage by stage, and prints each rate beside its bar.
 #[derive(Parser)]
@@ -38,6 +42,9 @@ struct Arguments {
     /// Style of the streets: grid, mixed, organic or suburb.
     #[arg(long, default_value = "mixed")]
     style: Style,
+    /// OSM XML, not compressed, of the real place; without it, a grown town is written as such.
+    #[arg(long)]
+    osm: Option<PathBuf>,
     /// One group of rows alone.
     #[arg(long, value_enum)]
     only: Option<Group>,
@@ -55,6 +62,8 @@ enum Group {
     Growth,
     /// Every stage on one core, tiles and routes.
     Stages,
+    /// A real place: OSM XML to the finished city, on one core.
+    Place,
     /// Two threads against one.
     Threads,
 }
@@ -107,6 +116,7 @@ fn measure(group: Group, arguments: &Arguments, rows: &mut Rows) -> Outcome<()> 
         Group::Whole => whole(arguments, rows),
         Group::Growth => one.install(|| growths(arguments, rows)),
         Group::Stages => one.install(|| stages(arguments, rows)),
+        Group::Place => one.install(|| place(arguments, rows)),
         Group::Threads => threads(arguments, rows),
     }
 }
@@ -115,11 +125,14 @@ fn measure(group: Group, arguments: &Arguments, rows: &mut Rows) -> Outcome<()> 
 fn in_own_process(group: Group, arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let name = group.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
     eprintln!("measuring: {name}");
-    let output = Command::new(std::env::current_exe()?)
+    let mut command = Command::new(std::env::current_exe()?);
+    command
         .args(["--fields", "--only", &name, "--streets", &arguments.streets.to_string()])
-        .args(["--style", &arguments.style.to_string()])
-        .stderr(Stdio::inherit())
-        .output()?;
+        .args(["--style", &arguments.style.to_string()]);
+    if let Some(path) = &arguments.osm {
+        command.arg("--osm").arg(path);
+    }
+    let output = command.stderr(Stdio::inherit()).output()?;
     if !output.status.success() {
         return Err(format!("the rows of {name} were not measured: {}", output.status).into());
     }
@@ -242,6 +255,37 @@ fn tiles(rows: &mut Rows) -> Outcome<()> {
     Ok(())
 }
 
+/// A real place from its XML, with nothing but what its map has, and with the rest generated.
+fn place(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
+    let text = match &arguments.osm {
+        Some(path) => fs::read_to_string(path)?,
+        None => as_extract(&City::generate(&config(arguments, arguments.streets / 100), Seed(6))?),
+    };
+    let megabytes = text.len() as f64 / 1e6;
+    let (read, time) = best(5, || Place::from_xml(text.as_bytes()));
+    let read = read?;
+    let rate_of = format!("{:.0} MB/s", megabytes / time);
+    rows.add_row([format!("{megabytes:.0} MB of OSM XML read"), rate_of, "100 MB/s".to_owned()]);
+    let (planned, time) =
+        best(5, || RoadNetwork::derive(&read.plan(&StreetOptions::default()).0, &NetworkConfig::default()));
+    let roads = planned?.roads.len();
+    rows.add_row([format!("  its {roads} roads, with lanes"), rate(roads, time), "-".to_owned()]);
+    for (fill, what, bar) in
+        [(Fill::Never, "as the map has it", "50 k roads/s"), (Fill::WhereMissing, "the rest generated", "-")]
+    {
+        let options = PlaceOptions { buildings: fill, elements: fill, ..PlaceOptions::default() };
+        let (city, time) = best(5, || {
+            let place = Place::from_xml(text.as_bytes())?;
+            Outcome::Ok(City::from_place(&place, &options, &CityConfig::default(), Seed(1))?.0)
+        });
+        let city = city?;
+        let (roads, buildings) = (city.network.roads.len(), city.buildings.len());
+        let what = format!("OSM XML to the finished city, {what}: {roads} roads, {buildings} buildings");
+        rows.add_row([what, rate(roads, time), bar.to_owned()]);
+    }
+    Ok(())
+}
+
 /// What takes bytes and keeps a hash of them.
 struct Fingerprint(StateHasher);
 
@@ -318,7 +362,7 @@ fn threads(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
 
 /// The most memory that this process has had, where the system tells.
 fn peak_memory() -> Option<String> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let status = fs::read_to_string("/proc/self/status").ok()?;
     let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kilobytes: f64 = kilobytes.trim().trim_end_matches(" kB").parse().ok()?;
     Some(format!("{:.2} GB", kilobytes * 1024.0 / 1e9))
@@ -341,7 +385,7 @@ fn whole(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let path = folder.path().join("whole.simcity");
     let (saved, time) = timed(|| city.save(&path));
     saved?;
-    let megabytes = std::fs::metadata(&path)?.len() / 1_000_000;
+    let megabytes = fs::metadata(&path)?.len() / 1_000_000;
     rows.add_row([format!("saved, {megabytes} MB"), format!("{time:.1} s"), "4 s".to_owned()]);
     add_peak(rows);
     let expected = fingerprint(&city)?;
