@@ -2,7 +2,8 @@
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
-use simworld_core::net::{RoadNetwork, Side, polyline};
+use simworld_core::net::polyline::{self, Measured};
+use simworld_core::net::{RoadNetwork, Side, Sidewalk};
 
 /// A building farther than this from every sidewalk has no way in, m.
 pub(crate) const FARTHEST_DOOR: f64 = 150.0;
@@ -25,14 +26,24 @@ pub(crate) struct Doors {
 impl Doors {
     /// The sidewalks of a network, for buildings no farther from one than `reach` m.
     pub(crate) fn of(network: &RoadNetwork, reach: f64) -> Self {
+        Self::of_some(network, reach, |_| true)
+    }
+
+    /// Some of the sidewalks of a network.
+    pub(crate) fn of_some(network: &RoadNetwork, reach: f64, counts: impl Fn(&Sidewalk) -> bool) -> Self {
         let mut doors = Self { cells: Vec::new(), reach };
-        for (index, sidewalk) in network.sidewalks.iter().enumerate() {
-            let length = polyline::length(&sidewalk.path);
+        for (index, sidewalk) in network.sidewalks.iter().enumerate().filter(|(_, sidewalk)| counts(sidewalk))
+        {
+            let path = Measured::new(&sidewalk.path);
+            let length = path.length();
             // Twice a cell, so that none is stepped over by more than its corner.
             let steps = (length / (reach * 0.5)).ceil().max(1.0) as u32;
             for step in 0..=steps {
-                let at = polyline::at(&sidewalk.path, length * f64::from(step) / f64::from(steps)).0;
-                doors.cells.push((doors.cell(at), index as u32));
+                let at = path.point_at(length * f64::from(step) / f64::from(steps));
+                let entry = (doors.cell(at), index as u32);
+                if doors.cells.last() != Some(&entry) {
+                    doors.cells.push(entry);
+                }
             }
         }
         doors.cells.sort_unstable();

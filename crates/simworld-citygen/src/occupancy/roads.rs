@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_4;
 
 use simworld_core::geometry::{Point2, Vector2, direction};
-use simworld_core::id::RoadId;
+use simworld_core::id::{IntersectionId, RoadId};
 use simworld_core::net::{Intersection, RoadNetwork, Side};
 
 use super::Occupancy;
@@ -18,15 +18,26 @@ impl Occupancy {
         Self::of_roads_where(network, |_| true)
     }
 
-    /// The land that some of the roads take: those on the ground.
+    /// The land that some of the roads take: those on the ground, and the junctions at their ends.
     pub(crate) fn of_roads_where(network: &RoadNetwork, counts: impl Fn(RoadId) -> bool) -> Self {
+        let meets =
+            |id: IntersectionId| network.intersections[id.index()].roads.iter().any(|road| counts(*road));
+        Self::of_parts(network, &counts, meets)
+    }
+
+    /// The land that some of the roads and some of the junctions take.
+    pub(crate) fn of_parts(
+        network: &RoadNetwork,
+        roads: impl Fn(RoadId) -> bool,
+        junctions: impl Fn(IntersectionId) -> bool,
+    ) -> Self {
+        let wanted: Vec<RoadId> =
+            (0..network.roads.len()).map(RoadId::from_index).filter(|road| roads(*road)).collect();
         // A bent street is some twenty strips; houses will come.
-        let mut taken = Self::with_capacity(network.roads.len() * 16);
-        for road in (0..network.roads.len()).map(RoadId::from_index).filter(|road| counts(*road)) {
-            taken.add_road(network, road);
-        }
-        for intersection in &network.intersections {
-            if intersection.roads.iter().any(|road| counts(*road)) {
+        let mut taken = Self::with_capacity(wanted.len() * 16);
+        wanted.into_iter().for_each(|road| taken.add_road(network, road));
+        for (index, intersection) in network.intersections.iter().enumerate() {
+            if junctions(IntersectionId::from_index(index)) {
                 taken.add_junction(network, intersection);
             }
         }

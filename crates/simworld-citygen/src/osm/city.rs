@@ -10,7 +10,9 @@ use simworld_core::seed::Seed;
 
 use super::building::{self, Outline};
 use super::error::Warning;
-use super::ground::{self, Mask};
+use super::ground;
+use super::mask::Mask;
+use super::near::Near;
 use super::place::Place;
 use super::street::{Planned, StreetOptions};
 use super::{CREDIT, footway, things};
@@ -79,9 +81,9 @@ impl City {
             Warning { what: low.to_string(), element: None, at }
         }));
         let mut network = RoadNetwork::derive_with(&plan, &config.network, &AllThreads)?;
-        let mut taken = Occupancy::of_roads_where(&network, |road| !off_ground[road.index()]);
         let zoning = Zoning::new(&config.zoning, seed);
         let is_filled = (options.buildings, options.elements) != (Fill::Never, Fill::Never);
+        let mut taken = land_of_roads(place, &network, &off_ground, is_filled);
         let of_network = || Land::of_network(&network, &zoning, &config.lots, seed, &taken);
         let land = if is_filled { of_network() } else { Land::default() };
         let (mut buildings, carriageways) =
@@ -125,6 +127,17 @@ fn provenance(place: &Place, seed: Seed) -> Provenance {
     Provenance { credit, origin: Some(place.origin), ..Provenance::of_seed(seed) }
 }
 
+/// The land of the roads on the ground; unless something will be generated, as far as things of the map may stand on it.
+fn land_of_roads(place: &Place, network: &RoadNetwork, off_ground: &[bool], is_filled: bool) -> Occupancy {
+    let near = Near::all(network, |road| !off_ground[road.index()]);
+    if is_filled {
+        return near.land(network);
+    }
+    let mut mask = Mask::new();
+    things::mark(place, &mut mask, things::LARGEST);
+    near.within(network, &mask, 0.0).land(network)
+}
+
 /// The buildings of the map that stand, out of the way of traffic, and what is driven on near what the map has.
 fn mapped(
     place: &Place,
@@ -138,7 +151,7 @@ fn mapped(
     let raised = building::raise_all(&mut outlines, network);
     let mut mask = Mask::new();
     raised.iter().flatten().flat_map(|raised| &raised.pieces).for_each(|piece| mask.mark(piece, 0.0));
-    things::mark(place, &mut mask);
+    things::mark(place, &mut mask, things::LARGEST);
     let carriageways = ground::carriageways(network, off_ground, &mask);
     let buildings = building::stand(place, &outlines, raised, &carriageways, taken, warnings);
     (buildings, carriageways)

@@ -12,6 +12,8 @@ mod city;
 mod error;
 mod footway;
 mod ground;
+mod mask;
+mod near;
 mod place;
 mod raw;
 mod read;

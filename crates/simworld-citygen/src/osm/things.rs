@@ -1,11 +1,11 @@
 //! What stands in the streets of a place: trees, benches, lamps and the like, from points of the map.
 
 use simworld_core::geometry::{Point2, heading};
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::{RoadNetwork, Sidewalk};
 use simworld_core::scene::{EntityKind, Shape};
 
 use super::error::{OsmId, Warning};
-use super::ground::Mask;
+use super::mask::Mask;
 use super::place::Place;
 use super::tags::{Key, Tags};
 use crate::doors::Doors;
@@ -17,7 +17,7 @@ const FARTHEST_STREET: f64 = 60.0;
 /// Distance of the trees of a row, m.
 const TREE_ROW: f64 = 8.0;
 /// Nothing reaches farther from its point, m.
-const LARGEST: f64 = 3.0;
+pub(super) const LARGEST: f64 = 3.0;
 /// Trees of one row at most.
 const MOST_TREES: f64 = 2000.0;
 
@@ -40,15 +40,15 @@ fn thing_of(tags: &Tags<'_>) -> Option<(EntityKind, Shape)> {
     Some(kind)
 }
 
-/// Marks the places of all that the map has.
-pub(super) fn mark(place: &Place, mask: &mut Mask) {
+/// Marks the places of all that the map has, and so much round them, m.
+pub(super) fn mark(place: &Place, mask: &mut Mask, beside: f64) {
     for (node, tags) in place.raw.tagged_nodes() {
         if let (Some(_), Some(position)) = (thing_of(&tags), place.point(node)) {
-            mask.mark(&[position], LARGEST);
+            mask.mark(&[position], beside);
         }
     }
     for (_, row) in tree_rows(place) {
-        row.windows(2).for_each(|piece| mask.mark(piece, LARGEST));
+        row.windows(2).for_each(|piece| mask.mark(piece, beside));
     }
 }
 
@@ -67,7 +67,10 @@ pub(super) fn set(
     taken: &mut Occupancy,
     warnings: &mut Vec<Warning>,
 ) -> Vec<Element> {
-    let doors = Doors::of(network, FARTHEST_STREET);
+    let mut mask = Mask::new();
+    mark(place, &mut mask, FARTHEST_STREET);
+    let is_near = |walk: &Sidewalk| walk.path.windows(2).any(|piece| mask.touches(piece, 0.0));
+    let doors = Doors::of_some(network, FARTHEST_STREET, is_near);
     let mut elements = Vec::new();
     let mut try_to_set = |kind: EntityKind, shape: Shape, position: Point2, element: OsmId| {
         let street = doors.nearest(network, position);

@@ -1,13 +1,12 @@
 //! From outlines to buildings: the rectangle round each, the way it looks, its door.
 
 use simworld_core::geometry::{Point2, Vector2, bounds, heading};
-use simworld_core::net::RoadNetwork;
 use simworld_core::ops::{sin_cos, wrap_angle};
 
 use super::Outline;
 use super::usage::{archetype_of, zone_of};
 use crate::building::{Building, Footprint, Surveyed};
-use crate::doors::Doors;
+use crate::doors::Door;
 
 /// An outline that fills this share of the rectangle round it is one.
 const RECTANGLE: f64 = 0.985;
@@ -21,10 +20,10 @@ struct Round {
     width: f64,
 }
 
-/// Raises a building on an outline; `None` if no sidewalk is near. The doors are asked in turn.
-pub(in crate::osm) fn raise(outline: &Outline, network: &RoadNetwork, doors: &[Doors]) -> Option<Building> {
+/// Raises a building on an outline with the door that is found for its middle; `None` without one.
+pub(in crate::osm) fn raise(outline: &Outline, door: impl Fn(Point2) -> Option<Door>) -> Option<Building> {
     let round = round(&outline.corners);
-    let door = doors.iter().find_map(|doors| doors.nearest(network, round.middle))?;
+    let door = door(round.middle)?;
     // Of the four sides the one that looks to the sidewalk has the entrance.
     let to_street = heading(&(door.at - round.middle));
     let quarter = std::f64::consts::FRAC_PI_2;

@@ -1,5 +1,7 @@
 //! Which buildings of the map stand: those with a way in, out of the way of traffic and of each other.
 
+use std::sync::LazyLock;
+
 use rayon::prelude::*;
 use simworld_core::geometry::Point2;
 use simworld_core::net::RoadNetwork;
@@ -23,11 +25,16 @@ pub(in crate::osm) struct Raised {
 /// Raises a building on each outline, the largest first: what overlaps it is a part of it. `None` where no sidewalk is
 /// near.
 pub(in crate::osm) fn raise_all(outlines: &mut [Outline], network: &RoadNetwork) -> Vec<Option<Raised>> {
+    if outlines.is_empty() {
+        return Vec::new();
+    }
     outlines.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.element.cmp(&b.element)));
-    // Most doors are near: the wide search is for the others.
-    let doors = [Doors::of(network, USUAL_DOOR), Doors::of(network, FARTHEST_DOOR)];
+    // Most doors are near: the wide search is for the others, and in most towns for none.
+    let near = Doors::of(network, USUAL_DOOR);
+    let far = LazyLock::new(|| Doors::of(network, FARTHEST_DOOR));
     let raised = outlines.par_iter().with_min_len(32).map(|outline| {
-        let building = raise(outline, network, &doors)?;
+        let door = |at| near.nearest(network, at).or_else(|| far.nearest(network, at));
+        let building = raise(outline, door)?;
         let pieces = building.ground();
         Some(Raised { building, pieces })
     });

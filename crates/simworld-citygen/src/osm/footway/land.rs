@@ -1,11 +1,12 @@
 //! Where nobody lays a way for walkers: on the land of roads and in buildings.
 
 use simworld_core::geometry::{Point2, Vector2};
-use simworld_core::id::RoadId;
 use simworld_core::net::{Road, RoadNetwork};
 
 use crate::building::{Building, Surveyed};
 use crate::occupancy::{Occupancy, intersection_walk};
+use crate::osm::mask::Mask;
+use crate::osm::near::Near;
 
 /// Half the width in which a way is tested, m: its middle, for maps are not that exact.
 const HALF: f64 = 0.1;
@@ -25,26 +26,27 @@ pub(super) struct Land {
 }
 
 impl Land {
-    pub(super) fn of(network: &RoadNetwork, buildings: &[Building]) -> Self {
+    /// The land that somebody who walks where the mask says may come to.
+    pub(super) fn of(network: &RoadNetwork, buildings: &[Building], mask: &Mask) -> Self {
         let (mut driven, mut beside, mut walls) =
             (Occupancy::default(), Occupancy::default(), Occupancy::default());
-        for road in network.roads.iter().filter(|road| road.level == 0) {
+        let near = Near::all(network, |road| network.roads[road.index()].level == 0);
+        let near = near.within(network, mask, FOLLOWS + HALF);
+        for (road, _) in network.roads.iter().zip(&near.roads).filter(|(_, is_near)| **is_near) {
             take_carriageway(road, &mut driven);
             for walk in road.sidewalks.iter().flatten().map(|walk| &network.sidewalks[walk.index()]) {
                 let reach = walk.width * 0.5 + FOLLOWS;
                 beside.add_path(&walk.path, (reach, reach));
             }
         }
-        let on_ground = |road: &RoadId| network.roads[road.index()].level == 0;
-        for place in network.intersections.iter().filter(|place| place.roads.iter().any(on_ground)) {
+        for (place, _) in network.intersections.iter().zip(&near.junctions).filter(|(_, is_near)| **is_near) {
             let paved = Surveyed { outline: place.outline.clone(), courts: Vec::new() };
             paved.triangles().iter().for_each(|triangle| driven.add(triangle));
             let reach = intersection_walk(network, &place.roads) * 0.5 + FOLLOWS;
             place.corners.iter().for_each(|corner| beside.add_path(corner, (reach, reach)));
         }
         buildings.iter().flat_map(Building::ground).for_each(|piece| walls.add(&piece));
-        let roads = Occupancy::of_roads_where(network, |road| on_ground(&road));
-        Self { roads, driven, walls, beside }
+        Self { roads: near.land(network), driven, walls, beside }
     }
 
     /// Whether a straight piece lies on nobody's land.

@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use simworld_core::geometry::Point2;
 use simworld_core::net::{Footpath, RoadNetwork, polyline};
 
+use super::mask::Mask;
 use super::place::Place;
 use crate::building::Building;
 use crate::doors::{Door, Doors};
@@ -35,8 +36,11 @@ pub(super) fn paths(place: &Place, network: &RoadNetwork, buildings: &[Building]
     if drawn.is_empty() {
         return Vec::new();
     }
-    let land = Land::of(network, buildings);
-    let doors = Doors::of(network, JOINS);
+    let mut mask = Mask::new();
+    drawn.iter().flat_map(|way| way.path.windows(2)).for_each(|piece| mask.mark(piece, JOINS));
+    let land = Land::of(network, buildings, &mask);
+    let doors =
+        Doors::of_some(network, JOINS, |walk| walk.path.windows(2).any(|piece| mask.touches(piece, 0.0)));
     let door = |at: &Point2| {
         let door = doors.nearest(network, *at)?;
         let is_level = network.roads[door.road.index()].level == 0;

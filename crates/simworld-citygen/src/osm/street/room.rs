@@ -8,6 +8,7 @@ use simworld_core::net::polyline;
 use super::profile::Profile;
 use super::web::Web;
 use crate::osm::building::Outline;
+use crate::osm::mask::Mask;
 
 /// Walls farther away than this do not matter, m.
 const REACH: f64 = 16.0;
@@ -28,18 +29,34 @@ const MOST_SHIFT: i32 = 20;
 /// The narrowest lane, dm.
 const LEAST_LANE: u16 = 22;
 
-/// Walls by the cells that they pass, in the order of cells.
+/// Cells along one side of the grid; it is wrapped round, so that far walls share cells.
+const SIDE: i64 = 512;
+
+/// Walls by the cells that they pass.
 struct Walls {
-    cells: Vec<((i32, i32), [Point2; 2])>,
+    /// Where the walls of each cell begin.
+    starts: Vec<u32>,
+    walls: Vec<[Point2; 2]>,
+    /// Where there are any.
+    mask: Mask,
 }
 
-fn cell(point: Point2) -> (i32, i32) {
-    ((point.x / CELL).floor() as i32, (point.y / CELL).floor() as i32)
+fn cell(point: Point2) -> (i64, i64) {
+    ((point.x / CELL).floor() as i64, (point.y / CELL).floor() as i64)
+}
+
+/// The places in the grid of the cells of a box.
+fn cells(low: Point2, high: Point2) -> impl Iterator<Item = usize> {
+    let (low, high) = (cell(low), cell(high));
+    (low.0..=high.0).flat_map(move |x| {
+        (low.1..=high.1).map(move |y| (x.rem_euclid(SIDE) * SIDE + y.rem_euclid(SIDE)) as usize)
+    })
 }
 
 impl Walls {
     fn of(buildings: &[Outline]) -> Self {
-        let mut cells = Vec::new();
+        let mut mask = Mask::new();
+        let mut filed: Vec<(u32, [Point2; 2])> = Vec::new();
         for building in buildings {
             let next = building.corners.iter().cycle().skip(1);
             for (a, b) in building.corners.iter().zip(next) {
@@ -48,30 +65,49 @@ impl Walls {
                 for index in 0..count as u32 {
                     let at = |index: u32| a + (b - a) * (f64::from(index) / count);
                     let piece = [at(index), at(index + 1)];
-                    let (p, q) = (cell(piece[0].inf(&piece[1])), cell(piece[0].sup(&piece[1])));
-                    cells.extend((p.0..=q.0).flat_map(|x| (p.1..=q.1).map(move |y| ((x, y), piece))));
+                    mask.mark(&piece, 0.0);
+                    let passed = cells(piece[0].inf(&piece[1]), piece[0].sup(&piece[1]));
+                    filed.extend(passed.map(|cell| (cell as u32, piece)));
                 }
             }
         }
-        cells.sort_by_key(|(cell, _)| *cell);
-        Self { cells }
+        let mut starts = vec![0; (SIDE * SIDE) as usize + 1];
+        filed.iter().for_each(|(cell, _)| starts[*cell as usize + 1] += 1);
+        (1..starts.len()).for_each(|cell| starts[cell] += starts[cell - 1]);
+        let (mut next, mut walls) = (starts.clone(), vec![[Point2::origin(); 2]; filed.len()]);
+        for (cell, wall) in filed {
+            let place = &mut next[cell as usize];
+            walls[*place as usize] = wall;
+            *place += 1;
+        }
+        Self { starts, walls, mask }
     }
 
     /// How far one sees from a point in a direction, m; at most [`REACH`].
     fn distance(&self, from: Point2, towards: Vector2) -> f64 {
         let to = from + towards * REACH;
-        let (low, high) = (cell(from.inf(&to)), cell(from.sup(&to)));
+        let (low, high) = (from.inf(&to), from.sup(&to));
         let mut share: f64 = 1.0;
-        for column in low.0..=high.0 {
-            let start = self.cells.partition_point(|entry| entry.0 < (column, low.1));
-            let walls = self.cells[start..].iter().take_while(|entry| entry.0 <= (column, high.1));
-            for (_, [a, b]) in walls {
+        for cell in cells(low, high) {
+            for [a, b] in &self.walls[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+                let is_beside = a.x.max(b.x) < low.x
+                    || a.x.min(b.x) > high.x
+                    || a.y.max(b.y) < low.y
+                    || a.y.min(b.y) > high.y;
+                if is_beside {
+                    continue;
+                }
                 if let Some((along, _)) = polyline::crossing(from, to, *a, *b) {
                     share = share.min(along);
                 }
             }
         }
         share * REACH
+    }
+
+    /// Whether there may be walls in sight of a piece of a street.
+    fn are_near(&self, piece: &[Point2]) -> bool {
+        self.mask.touches(piece, REACH)
     }
 }
 
@@ -104,11 +140,13 @@ fn measure(line: &[Point2], walls: &Walls, sides: &mut [Vec<f64>; 2]) {
     for pair in line.windows(2) {
         let step = pair[1] - pair[0];
         let span = step.norm();
+        let are_near = walls.are_near(pair);
         while next <= station + span && next <= length - ends && span > 0.0 {
             let at = pair[0] + step * ((next - station) / span);
             let left = Vector2::new(-step.y, step.x) / span;
-            sides[0].push(walls.distance(at, left));
-            sides[1].push(walls.distance(at, -left));
+            for (side, towards) in sides.iter_mut().zip([left, -left]) {
+                side.push(if are_near { walls.distance(at, towards) } else { REACH });
+            }
             next += STEP;
         }
         station += span;

@@ -1,0 +1,74 @@
+//! Roads and junctions near the places that matter.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::RoadId;
+use simworld_core::net::{Intersection, Road, RoadNetwork, Sidewalk};
+
+use super::mask::Mask;
+use crate::occupancy::{Occupancy, intersection_walk};
+
+/// For each road and junction, whether it matters.
+pub(super) struct Near {
+    pub(super) roads: Vec<bool>,
+    pub(super) junctions: Vec<bool>,
+}
+
+impl Near {
+    /// Roads that count, and the junctions at which one of them ends.
+    pub(super) fn all(network: &RoadNetwork, counts: impl Fn(RoadId) -> bool) -> Self {
+        let roads: Vec<bool> =
+            (0..network.roads.len()).map(|road| counts(RoadId::from_index(road))).collect();
+        let meets = |junction: &Intersection| junction.roads.iter().any(|road| roads[road.index()]);
+        let junctions = network.intersections.iter().map(meets).collect();
+        Self { roads, junctions }
+    }
+
+    /// Of them those whose land, and so much round it, m, touches a place that matters; some others may be among them.
+    pub(super) fn within(mut self, network: &RoadNetwork, mask: &Mask, beside: f64) -> Self {
+        for (road, is_near) in network.roads.iter().zip(&mut self.roads) {
+            *is_near = *is_near && touches_road(network, road, mask, beside);
+        }
+        for (junction, is_near) in network.intersections.iter().zip(&mut self.junctions) {
+            *is_near = *is_near && touches_junction(network, junction, mask, beside);
+        }
+        self
+    }
+
+    /// The land that they take.
+    pub(super) fn land(&self, network: &RoadNetwork) -> Occupancy {
+        Occupancy::of_parts(
+            network,
+            |road| self.roads[road.index()],
+            |junction| self.junctions[junction.index()],
+        )
+    }
+}
+
+fn touches_road(network: &RoadNetwork, road: &Road, mask: &Mask, beside: f64) -> bool {
+    // Round the outside of a bend the kerb is at most twice as far from the middle.
+    let kerbs = 2.0 * road.left_kerb.max(road.right_kerb).max(0.0) + beside;
+    let mut sidewalks = road.sidewalks.iter().flatten().map(|sidewalk| &network.sidewalks[sidewalk.index()]);
+    touches_path(&road.centerline, mask, kerbs)
+        || sidewalks.any(|walk| touches_walk(road, walk, mask, beside))
+}
+
+/// From the outer edge of a sidewalk to the middle of the road.
+fn touches_walk(road: &Road, walk: &Sidewalk, mask: &Mask, beside: f64) -> bool {
+    touches_path(&walk.path, mask, walk.width * 0.5 + road.left_kerb.max(road.right_kerb).max(0.0) + beside)
+}
+
+fn touches_path(path: &[Point2], mask: &Mask, beside: f64) -> bool {
+    path.windows(2).any(|pair| mask.touches(pair, beside))
+}
+
+fn touches_junction(network: &RoadNetwork, junction: &Intersection, mask: &Mask, beside: f64) -> bool {
+    let walk = intersection_walk(network, &junction.roads) * 0.5;
+    let circle = junction.turning.map(|circle| {
+        let out = Vector2::new(circle.radius, circle.radius);
+        [circle.center - out, circle.center + out]
+    });
+    mask.touches(&junction.outline, beside)
+        || junction.corners.iter().any(|corner| touches_path(corner, mask, walk + beside))
+        || circle.is_some_and(|corners| mask.touches(&corners, beside))
+        || junction.hammerhead.is_some_and(|head| mask.touches(&head.tips, head.width * 0.5 + beside))
+}
