@@ -72,3 +72,38 @@ fn touches_junction(network: &RoadNetwork, junction: &Intersection, mask: &Mask,
         || circle.is_some_and(|corners| mask.touches(&corners, beside))
         || junction.hammerhead.is_some_and(|head| mask.touches(&head.tips, head.width * 0.5 + beside))
 }
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::net::NetworkConfig;
+    use simworld_core::seed::Seed;
+
+    use super::*;
+    use crate::Style;
+
+    #[test]
+    fn what_is_marked_meets_the_same_land_as_among_all_roads() {
+        let mut plan = crate::growth::grow(&Style::Organic.roads(60), Seed(4));
+        plan.make_turning_room();
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
+        let all = Near::all(&network, |_| true);
+        let everywhere = all.land(&network);
+        let mut rng = Seed(8).stream("near").rng();
+        let middles: Vec<Point2> = network.intersections.iter().map(|junction| junction.center).collect();
+        let (mut free, mut taken) = (0, 0);
+        for _ in 0..60 {
+            let at = middles[rng.below(middles.len())]
+                + Vector2::new(rng.uniform(-40.0, 40.0), rng.uniform(-40.0, 40.0));
+            let square =
+                [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| at + Vector2::new(x, y));
+            let mut mask = Mask::new();
+            mask.mark(&square, 0.0);
+            let near = Near::all(&network, |_| true).within(&network, &mask, 0.0);
+            assert!(near.roads.iter().filter(|is_near| **is_near).count() < network.roads.len() / 2);
+            let is_free = near.land(&network).is_free(&square);
+            assert_eq!(is_free, everywhere.is_free(&square), "at {at}");
+            *(if is_free { &mut free } else { &mut taken }) += 1;
+        }
+        assert!(free > 10 && taken > 10, "{free} free, {taken} taken");
+    }
+}

@@ -144,6 +144,45 @@ fn a_path_leads_from_sidewalk_to_sidewalk() {
     assert!(through < 140.0 && round > 250.0, "{through} m through the block, {round} m round it");
 }
 
+/// A square in the middle of the block, to which paths lead from both long sides and from a corner.
+fn block_with_a_square(tags: &[(&str, &str)]) -> Sketch {
+    let mut sketch = block();
+    let corners = [(-20.0, -15.0), (0.0, -15.0), (20.0, -15.0), (20.0, 15.0), (0.0, 15.0), (-20.0, 15.0)];
+    for (id, at) in (30..).zip(corners) {
+        sketch = sketch.node(id, at, &[]);
+    }
+    let square = [("highway", "pedestrian"), ("area", "yes")];
+    let square: Vec<_> = square.iter().chain(tags).copied().collect();
+    sketch
+        .way(&[30, 31, 32, 33, 34, 35, 30], &square)
+        .way(&[2, 31], &FOOT)
+        .way(&[5, 34], &FOOT)
+        .way(&[1, 30], &FOOT)
+}
+
+#[test]
+fn a_square_is_crossed_between_its_entrances() {
+    let city = built(&block_with_a_square(&[]));
+    assert_beside_roads(&city.network, "a square");
+    assert_reached(&city.network, "a square");
+    let through = route(&city, Point2::new(0.0, -55.0), Point2::new(0.0, 55.0));
+    assert!(through < 130.0, "{through} m across");
+    let to_corner = route(&city, Point2::new(0.0, 55.0), Point2::new(-100.0, -55.0));
+    assert!(to_corner < 170.0, "{to_corner} m from the north to the corner");
+    let widths: Vec<f64> = city.network.footpaths.iter().map(|way| way.width).collect();
+    assert!(widths.contains(&3.7), "{widths:?}");
+    // Nothing generated stands where they cross.
+    let middle = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Point2::new(x, y));
+    assert!(city.buildings.iter().all(|house| house.ground().iter().all(|piece| !overlap(piece, &middle))));
+    assert!(city.elements.iter().all(|element| !overlap(&element.obb().footprint(), &middle)));
+    // One above the ground is none, nor one that nobody may enter: its paths end there.
+    for tag in [("layer", "1"), ("access", "private")] {
+        let closed = built(&block_with_a_square(&[tag]));
+        let round = route(&closed, Point2::new(0.0, -55.0), Point2::new(0.0, 55.0));
+        assert!(round > 250.0, "{tag:?}: {round} m");
+    }
+}
+
 #[test]
 fn nothing_generated_stands_on_a_path() {
     let city = built(&block().way(&[2, 5], &FOOT));

@@ -48,6 +48,19 @@ fn an_end_leads_to_a_sidewalk_only_where_it_joins() {
 }
 
 #[test]
+fn shared_ends_are_known_however_they_round() {
+    for index in 0..200 {
+        let index = f64::from(index);
+        let (start, end) = ((60.1 + index * 0.01, 8.3), (58.7 + index * 0.1, 50.0 + index * 0.07));
+        let (first, second) = ([start, end], [end, (80.3, 90.9)]);
+        assert!(
+            is_reached(&graph(&[(&first, [true, false]), (&second, [false; 2])]), (80.3, 90.9)),
+            "by {end:?}"
+        );
+    }
+}
+
+#[test]
 fn ways_that_share_an_end_lead_on() {
     let (first, second) = ([(60.0, 8.0), (60.0, 50.0)], [(80.0, 70.0), (60.0, 50.0)]);
     let both = graph(&[(&first, [true, false]), (&second, [false; 2])]);

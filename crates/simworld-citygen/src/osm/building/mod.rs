@@ -7,6 +7,6 @@ mod stand;
 mod usage;
 
 pub(super) use adopt::adopt;
-pub(super) use outline::{Outline, outlines};
+pub(super) use outline::{Outline, contains, outlines};
 use raise::raise;
 pub(super) use stand::{raise_all, stand};

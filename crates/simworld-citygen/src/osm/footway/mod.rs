@@ -7,6 +7,7 @@
 mod cut;
 mod drawn;
 mod land;
+mod square;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -125,7 +125,11 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
     // The waypoint at each end, and whether it leads to a sidewalk.
     let mut ends: BTreeMap<[u64; 2], (WaypointId, bool)> = BTreeMap::new();
     for footpath in &network.footpaths {
-        let places = interpolated(&footpath.path, step);
+        let mut places = interpolated(&footpath.path, step);
+        if let (Some(place), Some(end)) = (places.last_mut(), footpath.path.last()) {
+            // To the bit, for others know the end by it.
+            *place = *end;
+        }
         let mut last: Option<WaypointId> = None;
         for (rank, place) in places.iter().enumerate() {
             let is_end = rank == 0 || rank + 1 == places.len();
