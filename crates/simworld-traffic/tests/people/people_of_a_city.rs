@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::hash::StateHash;
-use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::net::{Aspect, Footpath, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
@@ -60,6 +60,40 @@ fn who_is_sent_arrives_and_nobody_is_lost() {
     let nowhere = traffic.add_walker(Point2::new(f64::NAN, 0.0), None);
     assert!(matches!(nowhere, Err(TrafficError::Walk { .. })), "{nowhere:?}");
     assert!(traffic.send_walker(9999, corner(0.5, 0.5), AtDestination::Leave).is_err());
+}
+
+/// The grid with a way for walkers through the middle of its first block, in two pieces that meet on a square.
+fn grid_with_a_footpath() -> Arc<RoadNetwork> {
+    let mut network = RoadNetwork::clone(&grid());
+    let at = |y: f64| Point2::new(55.3, y);
+    let piece = |from: f64, to: f64, joins| Footpath { path: vec![at(from), at(to)], width: 3.0, joins };
+    network.footpaths = vec![piece(7.1, 51.7, [true, false]), piece(51.7, 102.9, [false, true])];
+    network.check().unwrap();
+    Arc::new(network)
+}
+
+#[test]
+fn people_walk_on_ways_for_walkers_alone() {
+    let mut traffic =
+        Traffic::new(grid_with_a_footpath(), &on_foot(150, People::default()), Seed(4)).unwrap();
+    let sent = traffic.add_walker(Point2::new(55.0, 4.0), Some(Point2::new(55.0, 106.0))).unwrap();
+    let (mut walked, mut arrived) = (0, None);
+    for _ in 0..3000 {
+        traffic.step(0.1);
+        let inside = |at: Point2| (15.0..95.0).contains(&at.x) && (15.0..95.0).contains(&at.y);
+        for walker in traffic.pedestrians().iter().filter(|walker| walker.is_present()) {
+            if inside(walker.position) {
+                walked += 1;
+                let aside = (walker.position.x - 55.3).abs();
+                assert!(aside < 1.6, "{aside} m beside the middle of a way 3 m wide");
+            }
+        }
+        let end = traffic.walks().iter().find(|walk| walk.id == sent);
+        arrived = arrived.or(end.map(|walk| (walk.end, walk.ended)));
+    }
+    // Straight through it takes some 75 s, round the block more than 150.
+    assert!(matches!(arrived, Some((TripEnd::Arrived, seconds)) if seconds < 120.0), "{arrived:?}");
+    assert!(walked > 3000, "on the way for {:.0} s in all", f64::from(walked) * 0.1);
 }
 
 #[test]
