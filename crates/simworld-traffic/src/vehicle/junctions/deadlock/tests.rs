@@ -185,6 +185,41 @@ fn a_bus_waits_for_all_who_hold_a_way_that_meets_its_own() {
 }
 
 #[test]
+fn the_rear_of_a_car_beside_a_narrow_place_is_in_the_way_of_long_vehicles_alone() {
+    let (tracks, config, mut vehicles) = near_junctions();
+    let bus = config.types.iter().position(|row| row.length > 11.0).expect("there are buses") as u8;
+    let stand =
+        |row: u8, s: f64| Vehicle { stood: 60.0, ..Vehicle::new(config.vehicle_type(row), row, 1.0, 0, s) };
+    // Two ways that a bus and a car do not use at a time, though cars do not meet on them; behind the other there is room for a car
+    // whose rear is still on it.
+    let is_beside = |(own, other): &(usize, usize)| {
+        tracks.conflicts[*own].iter().all(|conflict| conflict.way as usize != *other)
+            && tracks.ways[*own].from != tracks.ways[*other].from
+            && tracks.length[tracks.lane_after(*other) as usize] > 2.0
+    };
+    let pairs = (0..tracks.ways.len())
+        .flat_map(|own| tracks.tight[own].iter().map(move |other| (own, *other as usize)));
+    let (own, other) = pairs.clone().find(is_beside).expect("narrow places");
+    let put = |vehicles: &mut VehicleManager, lane: Track, one: Vehicle| {
+        let one = Vehicle { id: vehicles.numbers() as u32, ..one };
+        vehicles.whereabouts.push(lane);
+        vehicles.push(&tracks, lane, one, Path::new(lane, NONE, 0.0, 0.0));
+        one
+    };
+    let behind = tracks.lane_after(other);
+    put(&mut vehicles, behind, Vehicle { holding: other as u32, ..stand(0, 1.5) });
+    let lane = tracks.ways[own].from;
+    let line = tracks.length[lane as usize] - 0.5;
+    let car = put(&mut vehicles, lane, Vehicle { next: own as u32, ..stand(0, line) });
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &car), None, "a car goes beside it");
+    let longer = Vehicle { row: bus, length: config.types[usize::from(bus)].length as f32, ..car };
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &longer), Some(behind), "a bus does not");
+    // Nor does the car while somebody long holds the other way.
+    vehicles.junctions.grant(&tracks, &Vehicle { next: other as u32, ..stand(bus, 0.0) }, &config);
+    assert_eq!(vehicles.waits_behind(&tracks, &config, lane, &car), Some(behind));
+}
+
+#[test]
 fn who_needs_the_permit_of_one_on_a_way_waits_for_that_for_which_he_stands() {
     use super::super::clusters::Permit;
 
