@@ -7,12 +7,13 @@ use super::ends::{End, Ends};
 use super::legs::{Leg, Legs};
 use super::near_side::Search;
 use super::trace::{Trace, Traces};
+use super::workers::{self, PART, Workers};
 use super::{cycles, hammerhead, kerbs, near_side};
 use crate::geometry::Point2;
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
-    Connection, Control, Few, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, StreetPlan, Turn,
-    TurnSet, polyline,
+    Connection, Control, Few, Intersection, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan,
+    StreetPlan, Turn, TurnSet, polyline,
 };
 use crate::ops::wrap_angle;
 
@@ -80,20 +81,34 @@ pub(in crate::net) fn settle(network: &mut RoadNetwork, place: IntersectionId, m
     }
 }
 
-/// Adds connections that were made with numbers from zero on.
-pub(super) fn append(network: &mut RoadNetwork, mut made: Vec<Connection>) {
-    let first = network.connections.len();
-    network.connections.append(&mut made);
-    let mut next = first as u32;
-    for own in network.connections[first..].chunk_by_mut(|a, b| a.intersection == b.intersection) {
+/// Adds connections that were made for the intersections of each part of the work, with numbers from zero on.
+pub(super) fn append(network: &mut RoadNetwork, mut made: Vec<Vec<Connection>>, workers: &dyn Workers) {
+    let mut firsts = Vec::with_capacity(made.len());
+    let count = made.iter().fold(0, |first, part| {
+        firsts.push(first as u32);
+        first + part.len()
+    });
+    let parts = made.iter_mut().zip(network.intersections.chunks_mut(PART)).zip(firsts);
+    workers::hand_out(workers, parts, |((made, places), first)| number(made, places, first));
+    network.connections.reserve_exact(count);
+    for mut part in made {
+        for (number, connection) in (network.connections.len()..).zip(&part) {
+            network.lanes[connection.from.index()].outgoing.push(ConnectionId::from_index(number));
+        }
+        network.connections.append(&mut part);
+    }
+}
+
+/// Numbers the connections of the intersections of one part from a first one on, and tells the intersections.
+fn number(made: &mut [Connection], places: &mut [Intersection], first: u32) {
+    let mut next = first;
+    for own in made.chunk_by_mut(|a, b| a.intersection == b.intersection) {
         let end = next + own.len() as u32;
-        let ids = (next..end).map(ConnectionId);
-        network.intersections[own[0].intersection.index()].connections = ids.clone().collect();
-        for (id, connection) in ids.zip(own) {
+        places[own[0].intersection.index() % PART].connections = (next..end).map(ConnectionId).collect();
+        for connection in own {
             for other in connection.conflicts.iter_mut().chain(&mut connection.yields_to) {
-                other.0 += first as u32;
+                other.0 += first;
             }
-            network.lanes[connection.from.index()].outgoing.push(id);
         }
         next = end;
     }

@@ -1,8 +1,7 @@
 //! Where lanes begin and end, looked up once for all the ways that lead there.
 
-use super::workers::{self, Workers};
 use crate::geometry::{Point2, Vector2, direction, heading};
-use crate::net::{Lane, RoadNetwork, polyline};
+use crate::net::{Lane, polyline};
 
 /// A point and the direction of traffic there.
 pub(super) type End = (Point2, Vector2);
@@ -13,12 +12,8 @@ pub(super) struct Ends {
     pub(super) end: End,
 }
 
-/// Those of all lanes.
-pub(super) fn of_lanes(network: &RoadNetwork, workers: &dyn Workers) -> Vec<Ends> {
-    workers::each(workers, network.lanes.len(), |lane| of(&network.lanes[lane]))
-}
-
-fn of(lane: &Lane) -> Ends {
+/// Those of a lane.
+pub(super) fn of(lane: &Lane) -> Ends {
     let along = |step: Option<Vector2>| direction(step.map_or(0.0, |step| heading(&step)));
     let (begin, first) = polyline::at_piece(&lane.path, 0.0);
     let (end, last) = polyline::at_piece(&lane.path, lane.length);

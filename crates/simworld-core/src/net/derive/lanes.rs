@@ -1,55 +1,48 @@
 //! Lanes: the driven strips of every cross-section, from stop line to stop line.
 
 use super::NetworkConfig;
-use super::legs::Legs;
 use crate::geometry::Point2;
 use crate::id::{LaneId, RoadId};
-use crate::net::polyline::Measured;
 use crate::net::{
-    CrossSection, Few, Lane, LaneDirection, LaneKind, LaneSpec, RoadNetwork, StreetPlan, Strip, polyline,
+    CrossSection, Few, Lane, LaneDirection, LaneKind, LaneSpec, Road, StreetPlan, Strip, polyline,
 };
 
 /// The most that is ridden on a cycle lane, m/s: 25 km/h, up to which a motor may help (EN 15194).
 const CYCLE_SPEED: f64 = 25.0 / 3.6;
 
-/// Cuts both ends off every centreline and lays the lanes beside what is left.
-pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &Legs, config: &NetworkConfig) {
-    let mut stops = vec![(0.0, 0.0); network.roads.len()];
-    for leg in legs.all() {
-        let (start, end) = &mut stops[leg.street];
-        *if leg.at_start { start } else { end } = leg.stop;
-    }
-    let mut middle = Vec::new();
-    for (index, (street, (start, end))) in plan.streets.iter().zip(stops).enumerate() {
-        let centerline = Measured::new(&network.roads[index].centerline);
-        let stations = (start, centerline.length() - end);
-        centerline.slice_into(stations.0, stations.1, &mut middle);
-        let speed_limit = street.speed_limit.unwrap_or_else(|| config.speed_limit(street.class));
-        for (offset, spec) in plan.section(street).strips() {
-            match spec.kind {
-                LaneKind::Driving | LaneKind::Bus => {
-                    lay(network, RoadId::from_index(index), &middle, offset, spec, speed_limit);
-                }
-                LaneKind::Cycle => {
-                    let spec = LaneSpec { direction: cycled(offset, spec.direction), ..spec };
-                    let speed_limit = speed_limit.min(CYCLE_SPEED);
-                    lay(network, RoadId::from_index(index), &middle, offset, spec, speed_limit);
-                }
-                _ => {}
+/// Lays the lanes of a road beside the middle of its street, cut off at those stations at both ends; numbers them on.
+pub(super) fn lay(
+    lanes: &mut Vec<Lane>,
+    (id, road): (RoadId, &mut Road),
+    (plan, config): (&StreetPlan, &NetworkConfig),
+    middle: &[Point2],
+    stations: (f64, f64),
+) {
+    let street = &plan.streets[id.index()];
+    let section = plan.section(street);
+    let speed_limit = street.speed_limit.unwrap_or_else(|| config.speed_limit(street.class));
+    for (offset, spec) in section.strips() {
+        let (spec, speed_limit) = match spec.kind {
+            LaneKind::Driving | LaneKind::Bus => (spec, speed_limit),
+            LaneKind::Cycle => {
+                let direction = cycled(offset, spec.direction);
+                (LaneSpec { direction, ..spec }, speed_limit.min(CYCLE_SPEED))
             }
-        }
-        let road = &mut network.roads[index];
-        road.strips.extend(beside_lanes(plan.section(street), stations));
-        // Strips run from left to right; the innermost lane of each direction is the one next to the other.
-        let forward_is_right = match (road.forward.first(), road.backward.first()) {
-            (Some(forward), Some(backward)) => forward > backward,
-            _ => true,
+            _ => continue,
         };
-        if forward_is_right {
-            road.backward.reverse();
-        } else {
-            road.forward.reverse();
-        }
+        let number = LaneId::from_index(lanes.len());
+        lanes.push(lane((id, road), number, middle, (offset, spec), speed_limit));
+    }
+    road.strips.extend(beside_lanes(section, stations));
+    // Strips run from left to right; the innermost lane of each direction is the one next to the other.
+    let forward_is_right = match (road.forward.first(), road.backward.first()) {
+        (Some(forward), Some(backward)) => forward > backward,
+        _ => true,
+    };
+    if forward_is_right {
+        road.backward.reverse();
+    } else {
+        road.forward.reverse();
     }
 }
 
@@ -74,31 +67,28 @@ fn cycled(offset: f64, direction: LaneDirection) -> LaneDirection {
     }
 }
 
-/// Lays one lane beside a line that runs along the centreline.
-fn lay(
-    network: &mut RoadNetwork,
-    road: RoadId,
+/// A lane of a road, which is told of it, beside a line that runs along the centreline.
+fn lane(
+    (id, road): (RoadId, &mut Road),
+    number: LaneId,
     line: &[Point2],
-    offset: f64,
-    spec: LaneSpec,
+    (offset, spec): (f64, LaneSpec),
     speed_limit: f64,
-) {
-    let id = LaneId::from_index(network.lanes.len());
-    let owner = &mut network.roads[road.index()];
+) -> Lane {
     let mut path = polyline::offset(line, offset);
     let is_backward = spec.direction == LaneDirection::Backward;
     let list = match (spec.kind, is_backward) {
-        (LaneKind::Cycle, _) => &mut owner.cycle,
-        (_, true) => &mut owner.backward,
-        (_, false) => &mut owner.forward,
+        (LaneKind::Cycle, _) => &mut road.cycle,
+        (_, true) => &mut road.backward,
+        (_, false) => &mut road.forward,
     };
-    list.push(id);
+    list.push(number);
     if is_backward {
         path.reverse();
     }
-    let (from, to) = if is_backward { (owner.to, owner.from) } else { (owner.from, owner.to) };
-    network.lanes.push(Lane {
-        road,
+    let (from, to) = if is_backward { (road.to, road.from) } else { (road.from, road.to) };
+    Lane {
+        road: id,
         kind: spec.kind,
         length: polyline::length(&path),
         path,
@@ -107,5 +97,5 @@ fn lay(
         from,
         to,
         outgoing: Few::new(),
-    });
+    }
 }

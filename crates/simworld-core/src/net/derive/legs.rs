@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Index;
 
+use super::workers::{self, PART, Workers};
 use super::{NetworkConfig, StreetPlan, hammerhead, kerbs};
 use crate::geometry::{Point2, Vector2, direction, heading};
 use crate::net::{CrossSection, RoadClass, polyline};
@@ -64,93 +65,18 @@ const fn rounding(class: RoadClass) -> f64 {
 }
 
 impl Leg {
-    pub(super) fn direction(&self) -> Vector2 {
-        self.ahead
-    }
-
-    /// The point `along` m out and `left` m to the left of the centreline, taken as straight near the junction.
-    pub(super) fn point(&self, along: f64, left: f64) -> Point2 {
-        let ahead = self.ahead;
-        self.node + ahead * along + Vector2::new(-ahead.y, ahead.x) * left
-    }
-}
-
-/// The legs of every node, counter-clockwise by heading; those of one node after those of another.
-pub(super) struct Legs {
-    all: Vec<Leg>,
-    /// Where those of each node begin, and where the last ones end.
-    starts: Vec<usize>,
-}
-
-impl Legs {
-    /// How many nodes there are.
-    pub(super) fn nodes(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    /// Those of all nodes.
-    pub(super) fn all(&self) -> &[Leg] {
-        &self.all
-    }
-
-    /// Those of each node.
-    pub(super) fn by_node(&self) -> impl Iterator<Item = &[Leg]> {
-        self.starts.windows(2).map(|ends| &self.all[ends[0]..ends[1]])
-    }
-
-    /// Works on those of each node.
-    fn edit(&mut self, mut work: impl FnMut(&mut [Leg])) {
-        self.starts.windows(2).for_each(|ends| work(&mut self.all[ends[0]..ends[1]]));
-    }
-}
-
-impl Index<usize> for Legs {
-    type Output = [Leg];
-
-    /// Those of a node.
-    fn index(&self, node: usize) -> &[Leg] {
-        &self.all[self.starts[node]..self.starts[node + 1]]
-    }
-}
-
-/// The end of a street at a node: in which direction the street leaves there, radians, which it is, and whether it begins there.
-type End = (f64, usize, bool);
-
-/// The ends of all streets by their nodes, counter-clockwise, and where those of each node begin.
-fn ends_by_node(plan: &StreetPlan) -> (Vec<End>, Vec<usize>) {
-    let mut starts = vec![0; plan.nodes.len() + 1];
-    for street in &plan.streets {
-        starts[street.from + 1] += 1;
-        starts[street.to + 1] += 1;
-    }
-    for node in 1..starts.len() {
-        starts[node] += starts[node - 1];
-    }
-    let (mut ends, mut next) = (vec![(0.0, 0, false); 2 * plan.streets.len()], starts.clone());
-    for (index, street) in plan.streets.iter().enumerate() {
-        let first = street.via.first().copied().unwrap_or(plan.nodes[street.to]);
-        let last = street.via.last().copied().unwrap_or(plan.nodes[street.from]);
-        for (node, towards, at_start) in [(street.from, first, true), (street.to, last, false)] {
-            ends[next[node]] = (heading(&(towards - plan.nodes[node])), index, at_start);
-            next[node] += 1;
-        }
-    }
-    for node in starts.windows(2) {
-        ends[node[0]..node[1]].sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    }
-    (ends, starts)
-}
-
-/// The legs of a plan.
-pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Legs {
-    let widths: Vec<[(f64, f64); 2]> = plan.sections.iter().map(widths).collect();
-    let leg = |(heading, index, at_start): End| {
+    /// The end of a street, which the junction does not reach into yet; by the widths of all cross-sections.
+    fn of(plan: &StreetPlan, (index, at_start): End, widths: &[[(f64, f64); 2]]) -> Self {
         let street = &plan.streets[index];
         let [mut left, mut right] = widths[street.section as usize];
+        let [mut node, mut towards] = [plan.nodes[street.from], plan.nodes[street.to]];
+        let mut next = street.via.first();
         if !at_start {
-            (left, right) = (right, left);
+            (left, right, node, towards) = (right, left, towards, node);
+            next = street.via.last();
         }
-        Leg {
+        let heading = heading(&(next.copied().unwrap_or(towards) - node));
+        Self {
             street: index,
             at_start,
             heading,
@@ -166,14 +92,121 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Legs {
             wanted: 0.0,
             turning: street.turning[usize::from(!at_start)],
             hammerhead: street.hammerhead[usize::from(!at_start)],
-            node: plan.nodes[if at_start { street.from } else { street.to }],
+            node,
         }
-    };
+    }
+
+    /// Goes over to what the junction takes of a street with so much room for its ends, m, of which so much is asked.
+    fn fit(&mut self, room: f64, asked: Asked) {
+        if asked.stop <= room {
+            let more = self.wanted * ((room - asked.stop) / asked.wanted.max(1e-9)).min(1.0);
+            self.reach += more;
+            self.stop += more;
+            self.walk += more;
+            return;
+        }
+        let scale = (room / asked.reach).min(1.0);
+        let beyond = ((room - asked.reach) / (asked.stop - asked.reach).max(1e-9)).clamp(0.0, 1.0);
+        let (own, walk, stop) = (self.reach, self.walk - self.reach, self.stop - self.reach);
+        if scale < 1.0 {
+            (self.turning, self.hammerhead) = (0.0, false);
+        }
+        self.reach = own * scale;
+        self.stop = self.reach + stop * beyond;
+        // At a dead end sidewalks go on to the end.
+        self.walk = (self.reach + walk * if walk < 0.0 { scale } else { beyond }).max(0.0);
+    }
+
+    pub(super) fn direction(&self) -> Vector2 {
+        self.ahead
+    }
+
+    /// The point `along` m out and `left` m to the left of the centreline, taken as straight near the junction.
+    pub(super) fn point(&self, along: f64, left: f64) -> Point2 {
+        let ahead = self.ahead;
+        self.node + ahead * along + Vector2::new(-ahead.y, ahead.x) * left
+    }
+}
+
+/// The legs of every node, counter-clockwise by heading; those of one node after those of another.
+pub(super) struct Legs {
+    /// Those of the nodes of each part of the work.
+    parts: Vec<Vec<Leg>>,
+    /// Where those of each node begin among all of them, and where the last ones end.
+    starts: Vec<usize>,
+}
+
+impl Legs {
+    /// How many nodes there are.
+    pub(super) fn nodes(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Those of all nodes.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Leg> {
+        self.parts.iter().flatten()
+    }
+
+    /// Those of each node.
+    pub(super) fn by_node(&self) -> impl Iterator<Item = &[Leg]> {
+        (0..self.nodes()).map(|node| &self[node])
+    }
+}
+
+impl Index<usize> for Legs {
+    type Output = [Leg];
+
+    /// Those of a node.
+    fn index(&self, node: usize) -> &[Leg] {
+        let before = self.starts[node - node % PART];
+        &self.parts[node / PART][self.starts[node] - before..self.starts[node + 1] - before]
+    }
+}
+
+/// The end of a street: which street it is, and whether it begins there.
+type End = (usize, bool);
+
+/// The ends of all streets by their nodes, and where those of each node begin.
+fn ends_by_node(plan: &StreetPlan) -> (Vec<End>, Vec<usize>) {
+    let mut starts = vec![0; plan.nodes.len() + 1];
+    for street in &plan.streets {
+        starts[street.from + 1] += 1;
+        starts[street.to + 1] += 1;
+    }
+    for node in 1..starts.len() {
+        starts[node] += starts[node - 1];
+    }
+    let (mut ends, mut next) = (vec![(0, false); 2 * plan.streets.len()], starts.clone());
+    for (index, street) in plan.streets.iter().enumerate() {
+        for (node, at_start) in [(street.from, true), (street.to, false)] {
+            ends[next[node]] = (index, at_start);
+            next[node] += 1;
+        }
+    }
+    (ends, starts)
+}
+
+/// The legs of a plan.
+pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig, workers: &dyn Workers) -> Legs {
+    let widths: Vec<[(f64, f64); 2]> = plan.sections.iter().map(widths).collect();
+    let lengths = workers::each(workers, plan.streets.len(), |street| plan.length_of(&plan.streets[street]));
     let (ends, starts) = ends_by_node(plan);
-    let mut legs = Legs { all: ends.into_iter().map(leg).collect(), starts };
-    legs.edit(|legs| set_reaches(legs, config));
-    let lengths: Vec<f64> = plan.streets.iter().map(|street| plan.length_of(street)).collect();
-    fit_into_streets(&mut legs, &lengths);
+    let nodes = plan.nodes.len();
+    let parts = workers::collect(workers, nodes.div_ceil(PART), |part| {
+        let nodes = &starts[part * PART..=nodes.min((part + 1) * PART)];
+        let mut legs = Vec::with_capacity(nodes[nodes.len() - 1] - nodes[0]);
+        for node in nodes.windows(2) {
+            let first = legs.len();
+            legs.extend(ends[node[0]..node[1]].iter().map(|end| Leg::of(plan, *end, &widths)));
+            let legs = &mut legs[first..];
+            legs.sort_unstable_by(|a, b| a.heading.total_cmp(&b.heading).then(a.street.cmp(&b.street)));
+            set_reaches(legs, config);
+            fit_dead_end(legs, &lengths);
+        }
+        legs
+    });
+    let mut legs = Legs { parts, starts };
+    fit_into_streets(&mut legs, &lengths, workers);
     legs
 }
 
@@ -257,46 +290,39 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     }
 }
 
-/// Shortens what both ends take of a street that is too short for it: first room to turn and roundings, then the room
-/// for crossings and stop lines, then the reaches, for an area cut short of where kerbs meet would fold over itself.
-fn fit_into_streets(legs: &mut Legs, lengths: &[f64]) {
-    legs.edit(|legs| {
-        let [leg] = legs else { return };
-        // A street that is not much longer than its turning circle or hammerhead has none.
-        let has_room = leg.turning > 0.0 || leg.hammerhead;
-        if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
-            (leg.turning, leg.hammerhead) = (0.0, false);
-            (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
+/// Takes the room to turn from a dead end whose street is not much longer than that.
+fn fit_dead_end(legs: &mut [Leg], lengths: &[f64]) {
+    let [leg] = legs else { return };
+    let has_room = leg.turning > 0.0 || leg.hammerhead;
+    if has_room && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
+        (leg.turning, leg.hammerhead) = (0.0, false);
+        (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
+    }
+}
+
+/// What both ends of a street ask of it together, m.
+#[derive(Clone, Copy, Default)]
+struct Asked {
+    reach: f64,
+    stop: f64,
+    wanted: f64,
+}
+
+/// Shortens what both ends take of a street that is too short for it: first roundings, then the room for crossings and stop
+/// lines, then the reaches, for an area cut short of where kerbs meet would fold over itself.
+fn fit_into_streets(legs: &mut Legs, lengths: &[f64], workers: &dyn Workers) {
+    let mut asked = vec![Asked::default(); lengths.len()];
+    for leg in legs.all() {
+        let asked = &mut asked[leg.street];
+        asked.reach += leg.reach;
+        asked.stop += leg.stop;
+        asked.wanted += leg.wanted;
+    }
+    workers::hand_out(workers, legs.parts.iter_mut(), |part| {
+        for leg in part {
+            leg.fit(lengths[leg.street] - LEAST_LANE, asked[leg.street]);
         }
     });
-    let mut asked = vec![(0.0, 0.0, 0.0); lengths.len()];
-    for leg in legs.all() {
-        let (reach, stop, wanted) = &mut asked[leg.street];
-        *reach += leg.reach;
-        *stop += leg.stop;
-        *wanted += leg.wanted;
-    }
-    for leg in &mut legs.all {
-        let room = lengths[leg.street] - LEAST_LANE;
-        let (reach, stop, wanted) = asked[leg.street];
-        if stop <= room {
-            let more = leg.wanted * ((room - stop) / wanted.max(1e-9)).min(1.0);
-            leg.reach += more;
-            leg.stop += more;
-            leg.walk += more;
-            continue;
-        }
-        let scale = (room / reach).min(1.0);
-        let beyond = ((room - reach) / (stop - reach).max(1e-9)).clamp(0.0, 1.0);
-        let (own, walk, stop) = (leg.reach, leg.walk - leg.reach, leg.stop - leg.reach);
-        if scale < 1.0 {
-            (leg.turning, leg.hammerhead) = (0.0, false);
-        }
-        leg.reach = own * scale;
-        leg.stop = leg.reach + stop * beyond;
-        // At a dead end sidewalks go on to the end.
-        leg.walk = (leg.reach + walk * if walk < 0.0 { scale } else { beyond }).max(0.0);
-    }
 }
 
 /// Where the left kerb of `leg` meets the right kerb of the next one, each moved outwards by its margin, m; `None`

@@ -14,6 +14,7 @@ mod mirror;
 mod near_side;
 mod outside;
 mod pieces;
+mod roads;
 mod shape;
 mod signals;
 mod trace;
@@ -176,7 +177,7 @@ impl RoadNetwork {
         Self::derive_with(plan, config, &Alone)
     }
 
-    /// The same, with the help of others: they work on what happens at junctions, which is the larger part. The network
+    /// The same, with the help of others: they work on streets and junctions, and nearly all of it falls to them. The network
     /// does not depend on them.
     ///
     /// # Errors
@@ -195,10 +196,8 @@ impl RoadNetwork {
     }
 
     fn keeping_right(plan: &StreetPlan, config: &NetworkConfig, workers: &dyn Workers) -> Self {
-        let legs = legs::of_plan(plan, config);
+        let legs = legs::of_plan(plan, config, workers);
         let mut network = Self::default();
-        network.roads.reserve_exact(plan.streets.len());
-        network.roads.extend(plan.streets.iter().map(|street| road(plan, street)));
         network.names.clone_from(&plan.names);
         let place = |node: usize| {
             let legs = &legs[node];
@@ -208,20 +207,14 @@ impl RoadNetwork {
             intersection((plan.nodes[node], plan.elevation(node)), legs, control, config)
         };
         network.intersections = workers::each(workers, legs.nodes(), place);
-        lanes::add(&mut network, plan, &legs, config);
+        let ends = roads::add(&mut network, plan, &legs, config, workers);
         walkways::add(&mut network, plan, &legs, config, workers);
-        for (node, legs) in legs.by_node().enumerate() {
-            signals::add(&mut network, IntersectionId::from_index(node), legs, config);
-        }
-        let ends = ends::of_lanes(&network, workers);
+        signals::add(&mut network, &legs, config, workers);
         let made = workers::collect(workers, legs.nodes().div_ceil(PART), |part| {
             let nodes = part * PART..legs.nodes().min((part + 1) * PART);
             connections::of_nodes(&network, plan, (&legs, &ends), nodes)
         });
-        network.connections.reserve_exact(made.iter().map(Vec::len).sum());
-        for part in made {
-            connections::append(&mut network, part);
-        }
+        connections::append(&mut network, made, workers);
         network
     }
 }

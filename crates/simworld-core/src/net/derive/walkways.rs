@@ -6,11 +6,10 @@ use super::kerbs;
 use super::legs::{self, Leg, Legs};
 use super::workers::{self, Workers};
 use crate::geometry::Point2;
-use crate::id::{CrossingId, IntersectionId, RoadId, SidewalkId};
-use crate::net::polyline::{self, Measured};
-use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan};
+use crate::id::{CrossingId, IntersectionId, RoadId};
+use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan, polyline};
 
-/// Adds the sidewalks that the cross-sections have, the corners between them, and the crossings that join them.
+/// Adds the corners between sidewalks, and the crossings that join them.
 pub(super) fn add(
     network: &mut RoadNetwork,
     plan: &StreetPlan,
@@ -18,7 +17,6 @@ pub(super) fn add(
     config: &NetworkConfig,
     workers: &dyn Workers,
 ) {
-    add_sidewalks(network, plan, legs, workers);
     for (node, legs) in legs.by_node().enumerate() {
         let id = IntersectionId::from_index(node);
         for leg in legs.iter().filter(|_| legs.len() >= 3) {
@@ -38,34 +36,9 @@ fn joins_two_sidewalks(network: &RoadNetwork, leg: &Leg) -> bool {
     network.roads[leg.street].sidewalks.iter().all(Option::is_some)
 }
 
-fn add_sidewalks(network: &mut RoadNetwork, plan: &StreetPlan, legs: &Legs, workers: &dyn Workers) {
-    let mut ends = vec![(0.0, 0.0); network.roads.len()];
-    for leg in legs.all() {
-        let (start, end) = &mut ends[leg.street];
-        *if leg.at_start { start } else { end } = leg.walk;
-    }
-    let roads = &network.roads;
-    let beside = |index: usize| sidewalks(plan, index, &roads[index].centerline, ends[index]);
-    let all = workers::each(workers, plan.streets.len(), beside);
-    network.sidewalks.reserve_exact(all.iter().flatten().flatten().count());
-    for sidewalk in all.into_iter().flatten().flatten() {
-        let id = SidewalkId::from_index(network.sidewalks.len());
-        let road = &mut network.roads[sidewalk.road.index()];
-        road.sidewalks[usize::from(sidewalk.side == Side::Right)] = Some(id);
-        network.sidewalks.push(sidewalk);
-    }
-}
-
-/// The sidewalks of a street on its left and on its right, which end so far before its ends, m.
-fn sidewalks(
-    plan: &StreetPlan,
-    street: usize,
-    centerline: &[Point2],
-    (start, end): (f64, f64),
-) -> [Option<Sidewalk>; 2] {
-    let section = plan.section(&plan.streets[street]);
-    let centerline = Measured::new(centerline);
-    let middle = centerline.slice(start, centerline.length() - end);
+/// The sidewalks that the cross-section of a street has on its left and on its right, beside the middle of the street.
+pub(super) fn sidewalks(plan: &StreetPlan, road: RoadId, middle: &[Point2]) -> [Option<Sidewalk>; 2] {
+    let section = plan.section(&plan.streets[road.index()]);
     let strips = || section.strips().filter(|(_, spec)| spec.kind == LaneKind::Sidewalk);
     let kerb = section.kerbs().0;
     // The outermost on either side; one that lies between the kerbs is no sidewalk of either.
@@ -73,8 +46,7 @@ fn sidewalks(
     let right = strips().last().filter(|(offset, _)| *offset < -section.kerbs().1);
     [(Side::Left, left), (Side::Right, right)].map(|(side, strip)| {
         let (offset, spec) = strip?;
-        let path = polyline::offset(&middle, offset);
-        Some(Sidewalk { road: RoadId::from_index(street), side, path, width: spec.width })
+        Some(Sidewalk { road, side, path: polyline::offset(middle, offset), width: spec.width })
     })
 }
 

@@ -1,6 +1,6 @@
 //! Work that falls into parts, and who does it: core starts no threads, but takes those that are lent.
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 /// So many streets or intersections are a part of the work.
 pub(super) const PART: usize = 256;
@@ -59,6 +59,24 @@ pub(super) fn collect<T: Send + Sync>(
         .collect()
 }
 
+/// Has some things worked on, each once, whoever works in whatever order.
+pub(super) fn hand_out<T: Send>(
+    workers: &dyn Workers,
+    things: impl Iterator<Item = T>,
+    work: impl Fn(T) + Sync,
+) {
+    let slots: Vec<Mutex<Option<T>>> = things.map(|thing| Mutex::new(Some(thing))).collect();
+    let take_up = |slot: &Mutex<Option<T>>| {
+        let thing = slot.lock().ok().and_then(|mut slot| slot.take());
+        if let Some(thing) = thing {
+            work(thing);
+        }
+    };
+    workers.run(slots.len(), &|part| slots.get(part).into_iter().for_each(take_up));
+    // What was left out is done here.
+    slots.iter().for_each(take_up);
+}
+
 /// What is made of each number below `count`, in their order, whoever works in whatever order.
 pub(super) fn each<T: Send + Sync>(
     workers: &dyn Workers,
@@ -95,6 +113,13 @@ mod tests {
         let expected: Vec<usize> = (0..20).map(|part| part * part).collect();
         assert_eq!(made(&Alone), expected);
         assert_eq!(made(&Careless), expected);
+    }
+
+    #[test]
+    fn each_thing_is_worked_on_once() {
+        let mut numbers: Vec<usize> = (0..20).collect();
+        hand_out(&Careless, numbers.iter_mut(), |number| *number += 100);
+        assert!((100..120).eq(numbers));
     }
 
     #[test]
