@@ -16,7 +16,7 @@ use crate::ElementConfig;
 use crate::block::Border;
 use crate::occupancy::Occupancy;
 use crate::threads;
-use crate::zoning::Zone;
+use crate::zoning::{RememberedZoning, Zone};
 
 /// Distance kept from the ends of a sidewalk, where people turn and cross, m.
 const CORNER_CLEARANCE: f64 = 5.0;
@@ -78,12 +78,14 @@ pub(super) fn line(
         all.filter(|(_, sidewalk)| setting.has_side(sidewalk.road, sidewalk.side)).collect();
     // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
     let wish = |batch: &[(usize, &Sidewalk)]| -> Vec<Wishes> {
-        let made = batch.par_chunks(CHUNK).map(|sidewalks| {
+        let zoning = || RememberedZoning::new(setting.zoning);
+        let made = batch.par_chunks(CHUNK).map_init(zoning, |zoning, sidewalks| {
             let mut setter = Setter::default();
             setter.wishes.elements.reserve(14 * sidewalks.len());
             for (index, sidewalk) in sidewalks {
                 setter.begin(sidewalk, doors.at(*index), setting);
-                setter.furnish(sidewalk, setting, config, stream_of(sidewalk, streams));
+                let zone = setter.zone(zoning);
+                setter.furnish(sidewalk, (setting, zone), config, stream_of(sidewalk, streams));
             }
             setter.wishes
         });
@@ -181,12 +183,11 @@ impl Setter {
     fn furnish(
         &mut self,
         sidewalk: &Sidewalk,
-        setting: &Setting<'_>,
+        (setting, zone): (&Setting<'_>, Zone),
         config: &ElementConfig,
         stream: Stream,
     ) {
         let rng = &mut stream.rng();
-        let zone = self.zone(setting);
         let (trees, furniture) = abundance(zone);
         let is_local = setting.network.roads[sidewalk.road.index()].class == RoadClass::Local;
         let usable = self.usable();
@@ -220,10 +221,9 @@ impl Setter {
     }
 
     /// The use of the land behind the sidewalk.
-    fn zone(&self, setting: &Setting<'_>) -> Zone {
-        self.walk
-            .at(self.walk.length * 0.5, 15.0)
-            .map_or(Zone::default(), |(point, _)| setting.zoning.zone(point))
+    fn zone(&self, zoning: &mut RememberedZoning<'_>) -> Zone {
+        let behind = self.walk.at(self.walk.length * 0.5, 15.0);
+        behind.map_or(Zone::default(), |(point, _)| zoning.zone(point))
     }
 
     /// Sets elements of one kind along the kerb at even distances.

@@ -131,13 +131,12 @@ impl Zoning {
 
     /// How densely people live and work at a point, from 0 (fields) to 1 (the middle of a metropolis).
     pub fn density(&self, point: Point2) -> f64 {
-        let usual = self.usual_density(point);
+        let usual = self.usual_density(point, self.density.uniform_at(point));
         self.district(point).map_or(usual, |district| district.density(usual))
     }
 
-    /// The density that the fields say.
-    fn usual_density(&self, point: Point2) -> f64 {
-        let wild = self.density.uniform_at(point);
+    /// The density without districts, where the field says `wild`.
+    fn usual_density(&self, point: Point2, wild: f64) -> f64 {
         let radius = self.config.center_radius;
         if radius <= 0.0 {
             return wild;
@@ -149,11 +148,25 @@ impl Zoning {
 
     /// What the land at a point is used for.
     pub fn zone(&self, point: Point2) -> Zone {
-        let character = self.character.uniform_at(point);
-        if let Some(district) = self.district(point) {
-            return district.zone(character);
+        self.at(point).0
+    }
+
+    /// Both of them.
+    pub(crate) fn at(&self, point: Point2) -> (Zone, f64) {
+        self.by(point, self.character.uniform_at(point), self.density.uniform_at(point))
+    }
+
+    /// Both from what the fields say of a point.
+    fn by(&self, point: Point2, character: f64, wild: f64) -> (Zone, f64) {
+        let density = self.usual_density(point, wild);
+        match self.district(point) {
+            Some(district) => (district.zone(character), district.density(density)),
+            None => (self.usual_zone(character, density), density),
         }
-        let density = self.usual_density(point);
+    }
+
+    /// What land of a character and a density is used for where no district says so.
+    fn usual_zone(&self, character: f64, density: f64) -> Zone {
         let Self { config, .. } = self;
         // The character of the land is spread evenly over [0, 1]: each use takes its share of it, from either end.
         if character < config.parks {
@@ -167,6 +180,30 @@ impl Zoning {
         } else {
             Zone::Residential
         }
+    }
+}
+
+/// The fields of a city for one who asks of many places beside each other: the same zones.
+#[derive(Clone, Debug)]
+pub(crate) struct RememberedZoning<'a> {
+    zoning: &'a Zoning,
+    density: RememberedNoise,
+    character: RememberedNoise,
+}
+
+impl<'a> RememberedZoning<'a> {
+    /// Squares of each field that are remembered: those of a quarter.
+    const SQUARES: usize = 256;
+
+    pub(crate) fn new(zoning: &'a Zoning) -> Self {
+        let remembered = |noise: &ValueNoise| RememberedNoise::new(noise.clone(), Self::SQUARES);
+        Self { zoning, density: remembered(&zoning.density), character: remembered(&zoning.character) }
+    }
+
+    /// [`Zoning::zone`].
+    pub(crate) fn zone(&mut self, point: Point2) -> Zone {
+        let (character, wild) = (self.character.uniform_at(point), self.density.uniform_at(point));
+        self.zoning.by(point, character, wild).0
     }
 }
 
@@ -190,6 +227,16 @@ mod tests {
         assert!((0.03..0.2).contains(&share(Zone::Industrial)), "industry {}", share(Zone::Industrial));
         assert!((0.05..0.4).contains(&share(Zone::Commercial)), "commerce {}", share(Zone::Commercial));
         assert!((0.4..0.85).contains(&share(Zone::Residential)), "homes {}", share(Zone::Residential));
+    }
+
+    #[test]
+    fn what_is_remembered_is_the_same_zone() {
+        let zoning = Zoning::new(&ZoningConfig::default(), Seed(5));
+        let mut remembered = RememberedZoning::new(&zoning);
+        for index in 0..10_000_u32 {
+            let at = Point2::new(f64::from(index % 97) * 31.0, f64::from(index / 97) * 13.0);
+            assert_eq!(remembered.zone(at), zoning.zone(at));
+        }
     }
 
     #[test]
