@@ -39,7 +39,9 @@ fn before(ring: &Ring, index: usize) -> usize {
 
 fn is_reflex(ring: &Ring, index: usize) -> bool {
     let (u, v) = (ring.edge(before(ring, index)), ring.edge(index));
-    u.perp(&v) < -FLAT * u.norm() * v.norm()
+    let turned = u.perp(&v);
+    // Most corners turn out.
+    turned < 0.0 && turned < -FLAT * u.norm() * v.norm()
 }
 
 /// Cuts a ring in two at a corner that turns in. At the bend of a street the cut runs between its edges; at a sharp

@@ -100,6 +100,29 @@ impl Ring {
     pub(crate) fn split(&self, at: Point2, normal: Vector2, behind: &mut Ring, ahead: &mut Ring) -> Split {
         behind.clear();
         ahead.clear();
+        self.cut(
+            (at, normal),
+            |corner, border| behind.push(corner, border),
+            |corner, border| ahead.push(corner, border),
+        );
+        Split::of(behind.len(), ahead.len())
+    }
+
+    /// The area of what lies behind such a line, m², to the bit, where something lies on both sides.
+    pub(crate) fn area_behind(&self, at: Point2, normal: Vector2) -> Option<f64> {
+        let (mut behind, mut ahead) = (Measure::default(), 0);
+        self.cut((at, normal), |corner, _| behind.add(corner), |_, _| ahead += 1);
+        (Split::of(behind.corners, ahead) == Split::Both).then_some(behind.doubled * 0.5)
+    }
+
+    /// Walks along the corners of what lies behind a line and of what lies ahead of it.
+    #[inline]
+    fn cut(
+        &self,
+        (at, normal): (Point2, Vector2),
+        mut behind: impl FnMut(Point2, Border),
+        mut ahead: impl FnMut(Point2, Border),
+    ) {
         let height = |corner: Point2| {
             let height = (corner - at).dot(&normal);
             // A corner on the line is no reason for a sliver.
@@ -110,25 +133,42 @@ impl Ring {
             let (corner, next, border) = (self.corners[index], self.next(index), self.borders[index]);
             let there = height(next);
             if here <= 0.0 {
-                behind.push(corner, if here == 0.0 && there > 0.0 { Border::LAND } else { border });
+                behind(corner, if here == 0.0 && there > 0.0 { Border::LAND } else { border });
             }
             if here >= 0.0 {
-                ahead.push(corner, if here == 0.0 && there < 0.0 { Border::LAND } else { border });
+                ahead(corner, if here == 0.0 && there < 0.0 { Border::LAND } else { border });
             }
             if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
                 let cut = corner + (next - corner) * (here / (here - there));
                 let (behind_border, ahead_border) =
                     if here < 0.0 { (Border::LAND, border) } else { (border, Border::LAND) };
-                behind.push(cut, behind_border);
-                ahead.push(cut, ahead_border);
+                behind(cut, behind_border);
+                ahead(cut, ahead_border);
             }
             here = there;
         }
-        match (behind.len() >= 3, ahead.len() >= 3) {
-            (true, true) => Split::Both,
-            (_, false) => Split::Behind,
-            (false, true) => Split::Ahead,
+    }
+}
+
+/// The corners of a ring, counted and measured one by one as [`Ring::area`] does.
+#[derive(Default)]
+struct Measure {
+    corners: usize,
+    origin: Point2,
+    last: Point2,
+    doubled: f64,
+}
+
+impl Measure {
+    #[inline]
+    fn add(&mut self, corner: Point2) {
+        if self.corners == 0 {
+            self.origin = corner;
+        } else {
+            self.doubled += (self.last - self.origin).perp(&(corner - self.origin));
         }
+        self.last = corner;
+        self.corners += 1;
     }
 }
 
@@ -141,6 +181,17 @@ pub(crate) enum Split {
     Behind,
     /// All of it ahead.
     Ahead,
+}
+
+impl Split {
+    /// By the numbers of corners behind and ahead.
+    const fn of(behind: usize, ahead: usize) -> Self {
+        match (behind >= 3, ahead >= 3) {
+            (true, true) => Self::Both,
+            (_, false) => Self::Behind,
+            (false, true) => Self::Ahead,
+        }
+    }
 }
 
 /// Whether two segments share a point.
@@ -175,6 +226,17 @@ mod tests {
         let streets = |ring: &Ring| ring.borders.iter().filter(|border| border.is_street()).count();
         assert_eq!((streets(&west), streets(&east)), (3, 3));
         assert!(east.borders.contains(&ring.borders[1]) && !east.borders.contains(&ring.borders[3]));
+    }
+
+    #[test]
+    fn what_lies_behind_a_line_is_measured_to_the_bit() {
+        let (mut behind, mut ahead) = (Ring::default(), Ring::default());
+        for step in -3..24 {
+            let (at, normal) = (Point2::new(f64::from(step) * 0.57, 1.3), Vector2::new(0.8, 0.6));
+            let split = square().split(at, normal, &mut behind, &mut ahead);
+            let expected = (split == Split::Both).then(|| behind.area());
+            assert_eq!(square().area_behind(at, normal), expected, "{at}");
+        }
     }
 
     #[test]

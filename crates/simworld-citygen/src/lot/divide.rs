@@ -35,8 +35,7 @@ impl<'a> Divider<'a> {
 
     /// Sets the zone to that of a point.
     pub(super) fn enter(&mut self, point: Point2) -> Zone {
-        self.zone = self.zoning.zone(point);
-        self.density = self.zoning.density(point);
+        (self.zone, self.density) = self.zoning.at(point);
         self.zone
     }
 
@@ -123,8 +122,7 @@ impl<'a> Divider<'a> {
         let (mut low, mut high) = (0.0, deepest);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            let split = ring.split(origin + inwards * middle, inwards, lot, rear);
-            if split == Split::Both && lot.area() <= most {
+            if ring.area_behind(origin + inwards * middle, inwards).is_some_and(|area| area <= most) {
                 low = middle;
             } else {
                 high = middle;

@@ -141,7 +141,8 @@ impl Land {
                 part
             })
             .collect();
-        let mut land = Self::default();
+        let mut parts = parts.into_iter();
+        let mut land = parts.next().unwrap_or_default();
         for part in parts {
             land.append(part);
         }

@@ -103,7 +103,7 @@ pub(super) fn slice(divider: &mut Divider<'_>, row: &Ring, street: &Street) {
 pub(super) fn stations(divider: &mut Divider<'_>, row: &Ring, street: &Street) -> Vec<Ring> {
     let Some((mut station, end)) = front(row, street) else { return vec![row.clone()] };
     let size = divider.size();
-    let mut lots = Vec::new();
+    let mut lots = Vec::with_capacity(((end - station) / size.least_width) as usize + 1);
     let (mut left, mut lot, mut rest) = (row.clone(), Ring::default(), Ring::default());
     loop {
         let room = end - station;
