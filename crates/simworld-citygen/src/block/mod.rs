@@ -66,7 +66,12 @@ pub struct Block {
 impl Block {
     /// The blocks of a network, in the order of the roads that bound them.
     pub fn of_network(network: &RoadNetwork) -> Vec<Self> {
-        let boundaries = trace::boundaries(network);
+        Self::of_faces(network, |_, _| true)
+    }
+
+    /// The blocks of a network that some of the sides of its roads bound, in the order of those roads.
+    pub(crate) fn of_faces(network: &RoadNetwork, counts: impl Fn(RoadId, Side) -> bool) -> Vec<Self> {
+        let boundaries = trace::boundaries(network, counts);
         boundaries.par_iter().with_min_len(64).filter_map(Self::within).collect()
     }
 

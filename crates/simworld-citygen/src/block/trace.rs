@@ -8,6 +8,9 @@ use simworld_core::net::{RoadNetwork, Side, polyline};
 
 use super::Border;
 
+/// Most boundaries have no more points.
+const USUAL_POINTS: usize = 64;
+
 /// A closed line along the middles of sidewalks. The i-th piece leads from point i to the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boundary {
@@ -23,16 +26,17 @@ pub(super) struct Piece {
     pub(super) offset: f64,
 }
 
-/// The boundary of every face, each once, in the order of its first road.
-pub(super) fn boundaries(network: &RoadNetwork) -> Vec<Boundary> {
+/// The boundary of every face that some of the sides of roads bound, each once, in the order of the first of them.
+pub(super) fn boundaries(network: &RoadNetwork, counts: impl Fn(RoadId, Side) -> bool) -> Vec<Boundary> {
     let tracer = Tracer { network };
     let mut seen = vec![false; network.roads.len() * 2];
     let mut found = Vec::new();
     for start in 0..seen.len() {
-        if seen[start] {
+        let side = if is_forward(start) { Side::Left } else { Side::Right };
+        if seen[start] || !counts(RoadId::from_index(start / 2), side) {
             continue;
         }
-        let mut boundary = Boundary::default();
+        let mut boundary = Boundary::with_capacity(USUAL_POINTS);
         let mut half = start;
         while !seen[half] {
             seen[half] = true;
@@ -127,6 +131,10 @@ impl Tracer<'_> {
 }
 
 impl Boundary {
+    fn with_capacity(points: usize) -> Self {
+        Self { points: Vec::with_capacity(points), pieces: Vec::with_capacity(points) }
+    }
+
     /// Goes on along a path, or against it; the way to its first point is a corner.
     fn extend(&mut self, path: &[Point2], against: bool, piece: Piece) {
         if let Some(last) = self.pieces.last_mut() {

@@ -86,6 +86,11 @@ pub struct Extent {
 }
 
 impl Extent {
+    /// Whether what lies on either side of a road belongs to it.
+    pub(crate) fn has_any_side(&self, road: RoadId) -> bool {
+        [Side::Left, Side::Right].into_iter().any(|side| self.has_side(road, side))
+    }
+
     /// Whether what lies on one side of a road belongs to it.
     pub fn has_side(&self, road: RoadId, side: Side) -> bool {
         self.sides.get(road.index()).is_some_and(|sides| sides[usize::from(side == Side::Right)])

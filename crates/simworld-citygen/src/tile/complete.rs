@@ -45,10 +45,11 @@ impl Tile {
         let Draft { plan, own, sides, .. } = Draft::of(source, id);
         let extent = Extent { streets: own, sides };
         let network = RoadNetwork::derive(&plan, &config.network)?;
-        let mut taken = Occupancy::of_roads(&network);
+        // What lies beyond the outline of the tile is nobody's here: nothing is built there, and what is built here does not
+        // reach there.
+        let mut taken = Occupancy::of_roads_where(&network, |road| extent.has_any_side(road));
         let zoning = Zoning::new(&config.zoning, seed);
-        let mut blocks = Block::of_network(&network);
-        blocks.retain(|block| is_inside(block, &extent));
+        let blocks = Block::of_faces(&network, |road, side| extent.has_side(road, side));
         let land = Land::of_blocks(blocks, &zoning, &config.lots, seed, &taken);
         // Places and names are drawn tile by tile.
         let own_seed = seed.stream("citygen/tiles").indexed(id.x as u64).indexed(id.y as u64).seed();
@@ -94,13 +95,4 @@ impl Tile {
         };
         Ok(parts.spawn(world)?)
     }
-}
-
-/// Whether a block lies within the tile: all sidewalks round it do.
-fn is_inside(block: &Block, extent: &Extent) -> bool {
-    block
-        .borders
-        .iter()
-        .filter_map(|border| border.as_street())
-        .all(|(road, side)| extent.has_side(road, side))
 }

@@ -68,7 +68,8 @@ impl Lattice {
         let across = Vector2::new(-along.y, along.x) * (self.config.bow * rng.uniform(-1.0, 1.0));
         let turns = if rng.chance(0.35) { TAU } else { PI };
         let pieces = (length / self.config.gates * rng.uniform(0.45, 1.25)).round().max(2.0);
-        let mut junctions = vec![Junction { at: from, opens: [false; 2] }];
+        let mut junctions = Vec::with_capacity(pieces as usize + 1);
+        junctions.push(Junction { at: from, opens: [false; 2] });
         for index in 1..pieces as u32 {
             let share = (f64::from(index) + rng.uniform(-UNEVENNESS, UNEVENNESS)) / pieces;
             let at = from + along * share + across * ops::sin(turns * share);
