@@ -8,11 +8,23 @@ use std::ops::RangeInclusive;
 
 use simworld_core::geometry::Point2;
 
-/// Numbers in one block; the last place of a block is the number of the block that goes on.
+/// Numbers in one block.
 const ROOM: usize = 7;
+/// What the last place of a block counts the block that goes on in; what is below is how many numbers stand in it.
+const NEXT: u32 = ROOM as u32 + 1;
 
-/// A block: numbers from one on, zero where there is none.
+/// A block: numbers, and behind them how many, and the block that goes on if there is one.
 type Block = [u32; ROOM + 1];
+
+/// The numbers in a block.
+fn numbers(block: &Block) -> &[u32] {
+    &block[..(block[ROOM] % NEXT) as usize]
+}
+
+/// The block that goes on from one, or 0 if none does: the first square goes on from no other.
+fn next(block: &Block) -> usize {
+    (block[ROOM] / NEXT) as usize
+}
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
@@ -93,16 +105,13 @@ impl Cells {
 
     fn visit_block<'a>(&'a self, mut block: &'a Block, visit: &mut impl FnMut(u32)) {
         loop {
-            for number in &block[..ROOM] {
-                if *number == 0 {
-                    return;
-                }
-                visit(*number - 1);
+            for number in numbers(block) {
+                visit(*number);
             }
-            if block[ROOM] == 0 {
+            if next(block) == 0 {
                 return;
             }
-            block = &self.blocks[block[ROOM] as usize];
+            block = &self.blocks[next(block)];
         }
     }
 
@@ -145,7 +154,7 @@ impl Cells {
         let mut blocks = std::mem::take(&mut self.blocks);
         self.along(a, b, |row, first, last| {
             let start = row * self.columns;
-            (start + first..=start + last).for_each(|cell| enter(&mut blocks, cell, number + 1));
+            (start + first..=start + last).for_each(|cell| enter(&mut blocks, cell, number));
             true
         });
         self.blocks = blocks;
@@ -158,7 +167,7 @@ pub(super) struct Asked {
     /// For numbers of the same lowest bits, the last one that was told, and the question it was an answer to.
     told: Vec<u64>,
     question: u32,
-    /// What stands in the squares, as often as it does, from one on; behind it what was read along with it.
+    /// What stands in the squares, as often as it does; behind it what was read along with it.
     found: Vec<u32>,
     numbers: Vec<u32>,
 }
@@ -184,7 +193,7 @@ impl Asked {
         let mut count = 0;
         for number in &self.found[..found] {
             // Whether it is new decides nothing but where the next one is written.
-            self.numbers[count] = *number - 1;
+            self.numbers[count] = *number;
             let told = &mut self.told[*number as usize % TOLD];
             let tells = question | u64::from(*number);
             count += usize::from(*told != tells);
@@ -206,8 +215,8 @@ impl Asked {
             let start = row * cells.columns + columns.start();
             for square in &cells.blocks[start..start + wide] {
                 self.found[count..count + ROOM].copy_from_slice(&square[..ROOM]);
-                count += filled(square);
-                more |= square[ROOM];
+                count += numbers(square).len();
+                more |= next(square);
             }
         }
         if more == 0 { count } else { self.find_more(cells, [columns, rows], count) }
@@ -224,10 +233,10 @@ impl Asked {
             let row = row * cells.columns;
             for square in &cells.blocks[row + columns.start()..=row + columns.end()] {
                 let mut block = square;
-                while block[ROOM] != 0 {
-                    block = &cells.blocks[block[ROOM] as usize];
+                while next(block) != 0 {
+                    block = &cells.blocks[next(block)];
                     self.found.truncate(count);
-                    self.found.extend_from_slice(&block[..filled(block)]);
+                    self.found.extend_from_slice(numbers(block));
                     count = self.found.len();
                 }
             }
@@ -236,26 +245,25 @@ impl Asked {
     }
 }
 
-/// How many numbers stand in a block: they fill it from its begin.
-fn filled(block: &Block) -> usize {
-    block[..ROOM].iter().map(|number| u32::from(*number != 0)).sum::<u32>() as usize
-}
-
 /// Lines are taken to be wider than they are by so much to both sides, m.
 const SLACK: f64 = 1e-3;
 
 /// Enters a number in a block, or in what goes on from it.
 fn enter(blocks: &mut Vec<Block>, mut block: usize, number: u32) {
     loop {
-        if let Some(place) = blocks[block][..ROOM].iter_mut().find(|place| **place == 0) {
-            *place = number;
+        let new = blocks.len() as u32;
+        let this = &mut blocks[block];
+        let count = numbers(this).len();
+        if count < ROOM {
+            this[count] = number;
+            this[ROOM] += 1;
             return;
         }
-        if blocks[block][ROOM] == 0 {
-            blocks[block][ROOM] = blocks.len() as u32;
+        if next(this) == 0 {
+            this[ROOM] += NEXT * new;
             blocks.push([0; ROOM + 1]);
         }
-        block = blocks[block][ROOM] as usize;
+        block = next(&blocks[block]);
     }
 }
 

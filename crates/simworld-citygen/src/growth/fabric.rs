@@ -73,7 +73,8 @@ impl Fabric {
     pub(super) fn around(middle: Point2, reach: f64, cell: f64, room: usize) -> Self {
         Self {
             nodes: Vec::with_capacity(room),
-            segments: Vec::with_capacity(room),
+            // Some are taken away again, and to move them all where there is more room takes long.
+            segments: Vec::with_capacity(room + room / 4),
             walls: 0,
             middle,
             // A little inside the edge of the cells.

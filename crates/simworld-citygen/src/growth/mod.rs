@@ -281,11 +281,11 @@ impl<'a> Growth<'a> {
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
         for index in self.in_order() {
             let segment = self.fabric.segment(index);
-            let ends = [segment.from, segment.to].map(|node| {
+            let ends = [(segment.from, segment.a), (segment.to, segment.b)].map(|(node, at)| {
                 let number = &mut numbers[node as usize];
                 if *number == u32::MAX {
                     *number = plan.nodes.len() as u32;
-                    plan.nodes.push(self.fabric.at(node));
+                    plan.nodes.push(at);
                 }
                 *number as usize
             });

@@ -72,7 +72,8 @@ impl Fitter {
         if fabric.ways_from(proposal.from).any(|way| way.dot(&proposal.along) > limit) {
             return None;
         }
-        let margin = measures.snap + measures.clearance;
+        // What decides where it arrives, and what it has to keep away from if that is on its way.
+        let margin = measures.snap.max(measures.clearance);
         let near = fabric.gather(&Bounds::around(start, wanted, margin), &mut self.scratch);
         let rules = Rules { fabric, measures, near, from: proposal.from, start };
         let arrival = rules.arrival(wanted);
@@ -80,10 +81,10 @@ impl Fitter {
         if !rules.turns_well(arrival, end) || !rules.is_empty_beside(end, proposal.emptiness) {
             return None;
         }
-        let is_clear = if Bounds::around(start, wanted, measures.snap).holds(end) {
+        let is_clear = if Bounds::around(start, wanted, margin - measures.clearance).holds(end) {
             rules.is_clear(arrival, end)
         } else {
-            // The end of a street is farther off than what was looked at.
+            // It is led aside, to where nothing was looked at yet.
             let bounds = Bounds::around(start, end, measures.clearance);
             let near = fabric.gather(&bounds, &mut self.scratch);
             Rules { fabric, measures, near, from: proposal.from, start }.is_clear(arrival, end)

@@ -115,11 +115,11 @@ impl<'a> Growth<'a> {
             (walls..self.fabric.segments().len()).filter(|index| self.fabric.is_standing(*index as u32))
         {
             let segment = self.fabric.segment(index as u32);
-            let [from, to] = [segment.from, segment.to].map(|node| {
+            let [from, to] = [(segment.from, segment.a), (segment.to, segment.b)].map(|(node, at)| {
                 let number = &mut numbers[node as usize];
                 if *number == u32::MAX {
                     *number = within.nodes.len() as u32;
-                    within.nodes.push(self.fabric.at(node));
+                    within.nodes.push(at);
                 }
                 *number as usize
             });
