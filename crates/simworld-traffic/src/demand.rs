@@ -309,11 +309,14 @@ impl DemandManager {
         for index in 0..self.sources.len() {
             self.draw(index, config, streams, now);
         }
-        for (leg, queue) in &mut self.outside {
+        self.outside.retain(|leg, queue| {
+            // The queue of a flow is kept for those who come next; of trips there may be no other from that leg.
+            let mut is_over = false;
             while let Some(departure) = queue.front() {
                 if !vehicles.enter(tracks, config, *leg, departure, now) {
                     break;
                 }
+                is_over = departure.source.is_none();
                 self.admitted.push(departure.number);
                 let source = departure.source.and_then(|source| self.sources.get(source as usize));
                 let own = self.stops.remove(&departure.number).unwrap_or_default();
@@ -322,7 +325,8 @@ impl DemandManager {
                 queue.pop_front();
                 counters.entered += 1;
             }
-        }
+            !(is_over && queue.is_empty())
+        });
         let (admitted, stops) = (&mut self.admitted, &mut self.stops);
         self.parked.retain(|(leg, departure)| {
             let place = (*leg, departure.kerbs.from.unwrap_or_default());

@@ -462,7 +462,8 @@ fn release_cleared(scene: &Scene<'_>, claims: &Claims, queue: &mut [Vehicle]) {
 /// and nobody meets it there. On such lanes, as between the junctions of imported maps, everybody would stand for good.
 fn is_free_behind(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
     let tracks = scene.tracks;
-    let way = &tracks.network.connections[vehicle.holding as usize];
-    let is_short = tracks.length[way.to.index()] <= vehicle.length() + CLEARED;
-    is_short && tracks.conflicts[vehicle.holding as usize].is_empty() && way.crossings.is_empty()
+    let way = vehicle.holding as usize;
+    let is_short = tracks.length[tracks.lane_after(way) as usize] <= vehicle.length() + CLEARED;
+    let crossings = || &tracks.network.connections[way].crossings;
+    is_short && tracks.conflicts[way].is_empty() && crossings().is_empty()
 }

@@ -105,12 +105,18 @@ impl Part {
         let Some(wish) = self.wish(scene, lane, rank) else { return false };
         let mut best: Option<(f64, Track, u32, usize)> = None;
         for target in scene.tracks.beside[lane as usize].into_iter().filter(|target| *target != NONE) {
+            if !self.may_take(scene, &wish, (lane, rank), target) {
+                continue;
+            }
+            let Some(offer) = self.offer(scene, (lane, rank), target, wish.must) else { continue };
+            // Where its way leads is far away in memory: one looks there only if that can still decide.
+            if !offer.is_worth(self.most_better(scene, (lane, rank))) {
+                continue;
+            }
             let Some(way) = self.way_from(scene, &wish, (lane, rank), target) else { continue };
             let better = self.leads_better(scene, (lane, rank), way);
-            if let Some((gain, place)) = self.gain(scene, (lane, rank), target, (wish.must, better))
-                && best.is_none_or(|best| gain > best.0)
-            {
-                best = Some((gain, target, way, place));
+            if offer.is_worth(better) && best.is_none_or(|best| offer.gain(better) > best.0) {
+                best = Some((offer.gain(better), target, way, offer.place));
             }
         }
         let Some((_, target, way, place)) = best else { return false };
@@ -142,14 +148,8 @@ impl Part {
         (must || to_end >= BEFORE_LINE * vehicle.v + 10.0).then_some(Wish { asked, lost, to_kerb, must })
     }
 
-    /// The way on from a lane beside, if a vehicle may take that lane.
-    fn way_from(
-        &self,
-        scene: &Scene<'_>,
-        wish: &Wish,
-        (lane, rank): (Track, usize),
-        target: Track,
-    ) -> Option<u32> {
+    /// Whether a vehicle may take a lane beside if that leads on.
+    fn may_take(&self, scene: &Scene<'_>, wish: &Wish, (lane, rank): (Track, usize), target: Track) -> bool {
         let tracks = scene.tracks;
         let local = tracks.layout.local(lane);
         let vehicle = &self.slabs.queue(local)[rank];
@@ -160,17 +160,28 @@ impl Part {
         // Nobody gets before a siren, but for who has to be there.
         let bars_siren =
             !wish.lost && scene.sirens.is_heard(target, vehicle.s) && !scene.sirens.is_on(vehicle.id);
-        if !may_use
-            || wish.is_against(tracks, lane, target)
-            || scene.closures.has(target)
-            || blocked.is_some_and(|gap| gap < BLOCK_SEEN)
-            || bars_siren
-        {
-            return None;
-        }
+        may_use
+            && !wish.is_against(tracks, lane, target)
+            && !scene.closures.has(target)
+            && blocked.is_none_or(|gap| gap >= BLOCK_SEEN)
+            && !bars_siren
+    }
+
+    /// The way on from a lane beside, if there is one for a vehicle.
+    fn way_from(
+        &self,
+        scene: &Scene<'_>,
+        wish: &Wish,
+        (lane, rank): (Track, usize),
+        target: Track,
+    ) -> Option<u32> {
+        let tracks = scene.tracks;
+        let local = tracks.layout.local(lane);
+        let vehicle = &self.slabs.queue(local)[rank];
         if vehicle.next == EXIT {
             return Some(EXIT);
         }
+        let kind = scene.config.vehicle_type(vehicle.row).kind;
         let path = &self.slabs.paths(local)[rank];
         let (wanted, after) = wanted(scene, (lane, vehicle), path);
         // A lane on the way to one that leads on is a step towards it.
@@ -193,6 +204,10 @@ impl Part {
     /// How many lanes over the nearest one is that leads one on whose own does not; one if there is none.
     pub(super) fn changes_needed(&self, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> usize {
         let Scene { tracks, closures, .. } = scene;
+        // Where no lane lies beyond those beside there is nothing to count.
+        if [0, 1].iter().all(|side| tracks.beside_on(lane, *side).nth(1).is_none()) {
+            return 1;
+        }
         let local = tracks.layout.local(lane);
         let rank = self.slabs.queue(local).iter().position(|other| other.id == vehicle.id);
         let Some(path) = rank.and_then(|rank| self.slabs.paths(local).get(rank)) else { return 1 };
@@ -201,6 +216,12 @@ impl Part {
         let leads_on = |lane: &Track| tracks.way_on(closures, *lane, (leg, after), kind).is_some();
         let sides = [0, 1].map(|side| tracks.beside_on(lane, side).position(|lane| leads_on(&lane)));
         sides.into_iter().flatten().min().map_or(1, |between| between + 1)
+    }
+
+    /// By how many grades another way than his own may lead a driver on better at most, along whatever route.
+    fn most_better(&self, scene: &Scene<'_>, (lane, rank): (Track, usize)) -> f64 {
+        let next = self.slabs.queue(scene.tracks.layout.local(lane))[rank].next;
+        if next >= EXIT { 0.0 } else { f64::from(scene.tracks.most_better_than(next)) }
     }
 
     /// By how many grades another way than his own leads a driver on better along his route.

@@ -294,10 +294,8 @@ impl View<'_> {
         if !is_first || to_end > horizon(vehicle.v) + LONGEST {
             return;
         }
-        for (way, _) in lane.scene.tracks.exits(lane.track) {
-            for (_, rear, v) in lane.part.on_way(lane.scene, *way).filter(|other| other.1 < 0.0) {
-                self.follow(to_end + rear + self.closer, v);
-            }
+        for (rear, v) in lane.part.leavers(lane.scene, lane.track) {
+            self.follow(to_end + rear + self.closer, v);
         }
     }
 

@@ -38,16 +38,40 @@ struct Neighbours {
     rank: usize,
 }
 
+/// What a lane beside offers to one who may change to it.
+pub(super) struct Offer {
+    /// His place in its queue.
+    pub(super) place: usize,
+    /// What he gains there by himself, and what others gain by it as far as he cares, m/s².
+    own: f64,
+    others: f64,
+    /// What a grade by which it leads on better is worth, m/s².
+    grade: f64,
+    /// Gain below which he stays, m/s².
+    threshold: f64,
+}
+
+impl Offer {
+    /// The advantage of a lane that leads on better by so many grades, m/s².
+    pub(super) fn gain(&self, better: f64) -> f64 {
+        self.own + better * self.grade + self.others
+    }
+
+    /// Whether that is enough to change.
+    pub(super) fn is_worth(&self, better: f64) -> bool {
+        self.gain(better) > self.threshold
+    }
+}
+
 impl Part {
-    /// The advantage of a lane, m/s², and the place in its queue; `None` if it is not safe or not worth it. One must change, or the lane
-    /// leads on better by so many grades.
-    pub(in crate::vehicle) fn gain(
+    /// What a lane beside offers; `None` if it is not safe to change to it. For one who must change every lane is worth it.
+    pub(super) fn offer(
         &self,
         scene: &Scene<'_>,
         (lane, rank): (Track, usize),
         target: Track,
-        (must, better): (bool, f64),
-    ) -> Option<(f64, usize)> {
+        must: bool,
+    ) -> Option<Offer> {
         let Scene { tracks, config, .. } = scene;
         let mobil = &config.mobil;
         let queue = self.slabs.queue(tracks.layout.local(lane));
@@ -76,8 +100,15 @@ impl Part {
         if mine < safe || follower.is_some_and(|(_, after)| after < safe) {
             return None;
         }
+        let place = there.rank;
         if must {
-            return Some((1e3 + mine, there.rank));
+            return Some(Offer {
+                place,
+                own: 1e3 + mine,
+                others: 0.0,
+                grade: 0.0,
+                threshold: f64::NEG_INFINITY,
+            });
         }
         // With a siren every gain is worth it, and what others lose is nothing.
         let siren = scene.sirens.is_on(vehicle.id);
@@ -87,10 +118,9 @@ impl Part {
             let stops_there = vehicle.halt.is_finite() && tracks.outermost[lane as usize];
             tracks.suits(lane, row.kind) + 2 * i8::from(stops_there)
         };
-        let own = f64::from(suits(target) - suits(lane)) * OWN_LANE;
+        let own = mine - now + f64::from(suits(target) - suits(lane)) * OWN_LANE;
         let loss = follower.map_or(0.0, |(before, after)| before - after);
-        let gain = mine - now + own + better * OWN_LANE + politeness * (left_behind - loss);
-        (gain > threshold).then_some((gain, there.rank))
+        Some(Offer { place, own, others: politeness * (left_behind - loss), grade: OWN_LANE, threshold })
     }
 
     /// The gaps before and behind a place in a lane; nothing if one must not go there, however safe it would be.

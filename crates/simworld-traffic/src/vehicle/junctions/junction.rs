@@ -172,7 +172,7 @@ impl Part {
             let track = layout.tracks[local];
             let end = scene.tracks.length[track as usize];
             self.revoke(scene, local, end);
-            self.collect(local, end, &mut requests);
+            self.collect(scene, local, end, &mut requests);
             if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {
                 self.work.stuck.push(track);
             }
@@ -228,7 +228,7 @@ impl Part {
     }
 
     /// The vehicles of a lane that are near enough to its end to ask.
-    fn collect(&mut self, local: usize, end: f64, requests: &mut Vec<Request>) {
+    fn collect(&mut self, scene: &Scene<'_>, local: usize, end: f64, requests: &mut Vec<Request>) {
         let queue = self.slabs.queue(local);
         for (rank, vehicle) in queue.iter().enumerate() {
             let distance = end - vehicle.s;
@@ -237,6 +237,9 @@ impl Part {
             }
             if vehicle.next == EXIT {
                 continue;
+            }
+            if vehicle.holding != vehicle.next && waits_at_red(scene, vehicle) {
+                break; // nor is it the turn of those behind
             }
             if vehicle.holding == NONE {
                 let Vehicle { stood, id, .. } = *vehicle;
@@ -317,13 +320,11 @@ impl Part {
     /// Whether the room that a vehicle would take is kept for nobody else. Who stands between near junctions goes first: the other
     /// may wait for him to be out of there.
     fn leaves_room_to_the_patient(&self, scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+        let Scene { tracks, .. } = scene;
         let way = vehicle.next as usize;
-        let lane = scene.tracks.lane_after(way);
-        if scene.tracks.clusters.of(scene.tracks, scene.tracks.ways[way].from, vehicle).is_some() {
-            return true;
-        }
-        let mut reserved = self.work.reserved.iter();
-        reserved.find(|(kept, _)| *kept == lane).is_none_or(|(_, id)| *id == vehicle.id)
+        let is_for_others = |(lane, id): &(Track, u32)| *lane == tracks.lane_after(way) && *id != vehicle.id;
+        !self.work.reserved.iter().any(is_for_others)
+            || tracks.clusters.of(tracks, tracks.ways[way].from, vehicle).is_some()
             || may_pass(scene, vehicle)
     }
 }
@@ -333,6 +334,12 @@ impl Part {
 #[inline]
 pub(in crate::vehicle) fn horizon(v: f64) -> f64 {
     8.0 + v * 1.5 + v * v / 4.0
+}
+
+/// Whether a vehicle would ask in vain, and has not stood for so long that anybody does anything about it.
+fn waits_at_red(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+    let signal = scene.tracks.ways[vehicle.next as usize].signal;
+    vehicle.stood <= TOO_LONG && scene.aspect(signal) == Aspect::Red && !scene.sirens.is_on(vehicle.id)
 }
 
 fn may_enter(

@@ -345,7 +345,7 @@ impl Part {
         let driver = &scene.config.vehicle_type(vehicle.row).driver;
         let hardest = RELIES * driver.emergency_deceleration;
         let sure = vehicle.v * (vehicle.v / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
-        for conflict in tracks.conflicts[way].iter().filter(|other| scene.junctions.is_held(other.way)) {
+        for conflict in tracks.conflicts_with(way, |other| scene.junctions.is_held(other)) {
             let to_zone = conflict.own.enter() - front;
             if to_zone > horizon(vehicle.v) {
                 continue;

@@ -101,8 +101,15 @@ impl Part {
 
     /// Those whose front has left a lane by a junction and whose rear has not: where that is, from the end of the lane, m and
     /// negative; and their speeds.
-    fn leavers(&self, scene: &Scene<'_>, lane: Track) -> impl Iterator<Item = (f64, f64)> {
-        let on_ways = scene.tracks.exits(lane).iter().flat_map(move |(way, _)| self.on_way(scene, *way));
+    pub(in crate::vehicle) fn leavers(
+        &self,
+        scene: &Scene<'_>,
+        lane: Track,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        // Who is on a way holds it.
+        let ways = scene.tracks.exits(lane).iter().map(|(way, _)| *way);
+        let held = ways.filter(|way| scene.junctions.is_held(*way));
+        let on_ways = held.flat_map(move |way| self.on_way(scene, way));
         on_ways.filter(|other| other.1 < 0.0).map(|(_, rear, v)| (rear, v))
     }
 

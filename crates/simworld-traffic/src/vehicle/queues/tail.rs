@@ -30,15 +30,11 @@ impl Tail {
     /// Of one on a way, as the end of the lane that it has left but for its rear; `None` if it has left it whole.
     pub(in crate::vehicle) fn of_leaver(tracks: &Tracks, way: usize, last: &Vehicle) -> Option<Self> {
         let rear = last.s - last.length();
-        // By other ways one goes on only where there is room behind them.
-        let over = if tracks.is_alone(way) { -rear as f32 } else { 0.0 };
-        let end = tracks.length[tracks.ways[way].from as usize];
-        (rear < 0.0).then(|| Self {
-            rear: end + rear,
-            v: last.v,
-            length: last.length,
-            over,
-            ..Self::default()
+        (rear < 0.0).then(|| {
+            // By other ways one goes on only where there is room behind them.
+            let over = if tracks.is_alone(way) { -rear as f32 } else { 0.0 };
+            let end = tracks.length[tracks.ways[way].from as usize];
+            Self { rear: end + rear, v: last.v, length: last.length, over, ..Self::default() }
         })
     }
 

@@ -59,8 +59,17 @@ impl Tracks {
 
     /// The same in the choice between lanes for what comes later: where one can count on a change there is nothing to choose.
     pub(in crate::vehicle) fn serves(&self, way: u32, after: &[Leg]) -> u8 {
-        let is_sure = self.length[self.lane_after(way as usize) as usize] >= SURE;
-        if is_sure { WELL } else { self.leads_on_to(way, after) }
+        if self.is_sure(way) { WELL } else { self.leads_on_to(way, after) }
+    }
+
+    /// By how many grades another way may serve better than one, whatever comes after it.
+    pub(in crate::vehicle) fn most_better_than(&self, way: u32) -> u8 {
+        if self.is_sure(way) { 0 } else { WELL - BLIND }
+    }
+
+    /// Whether one can count on a change of lanes behind a way.
+    fn is_sure(&self, way: u32) -> bool {
+        self.length[self.lane_after(way as usize) as usize] >= SURE
     }
 
     /// The way from a lane on to a leg and those after it. None if it leads to a short lane from which one could not go on, and one can still

@@ -104,6 +104,8 @@ pub(crate) struct Tracks {
     pub(crate) ways: Vec<Way>,
     /// The connections whose vehicles could touch one on this connection, and where.
     pub(crate) conflicts: Ragged<Conflict>,
+    /// Their numbers alone: one asks for all of them who is there, and hardly ever for where they meet.
+    meeting: Ragged<u32>,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Ragged<(u32, f64)>,
     /// Ways so near to each connection that a long vehicle on either touches whoever is on the other in the turn, and those on
@@ -153,12 +155,15 @@ impl Tracks {
         let connections = 0..network.connections.len();
         let beside = lanes::beside(&network);
         let Beside { short, tight, narrow } = Beside::new(&network, config);
+        let conflicts = conflicts(&network, config, short);
+        let meeting = |way: usize| conflicts[way].iter().map(|conflict| conflict.way).collect();
         Self {
             lanes: network.lanes.len(),
             length,
             speed,
             ways: network.connections.iter().map(|connection| way(&network, connection)).collect(),
-            conflicts: conflicts(&network, config, short),
+            meeting: connections.clone().map(meeting).collect(),
+            conflicts,
             siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
             tight,
             narrow,
@@ -211,6 +216,17 @@ impl Tracks {
     pub(super) fn is_alone(&self, way: usize) -> bool {
         [self.tight[way].len(), self.narrow[way].len(), self.strips[way].len()] == [0; 3]
             && self.conflicts[way].is_empty()
+    }
+
+    /// Where a way meets those of others that are so.
+    #[inline]
+    pub(super) fn conflicts_with(
+        &self,
+        way: usize,
+        is_so: impl Fn(u32) -> bool,
+    ) -> impl Iterator<Item = &Conflict> {
+        let meeting = self.meeting[way].iter().zip(&self.conflicts[way]);
+        meeting.filter(move |(other, _)| is_so(**other)).map(|(_, conflict)| conflict)
     }
 
     /// Distance between the middles of two lanes side by side, m.
