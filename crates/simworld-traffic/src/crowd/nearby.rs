@@ -21,12 +21,40 @@ use super::{Person, Wish};
 /// Distance over which the wish to step back falls to 1/e, m.
 const TOUCH: f32 = 0.05;
 
+/// So many are worked on at once, in a block. The last block is filled up with nobody: loops over whole blocks have no rest, which would
+/// take as long as a block for each.
+const LANES: usize = 4;
+/// The lanes of a block that the bits of a number stand for, in order.
+const LANES_OF: [[u32; LANES]; 1 << LANES] = lanes_of();
+
+const fn lanes_of() -> [[u32; LANES]; 1 << LANES] {
+    let mut lanes_of = [[0; LANES]; 1 << LANES];
+    let mut bits: usize = 0;
+    while bits < lanes_of.len() {
+        let (mut lane, mut count) = (0, 0);
+        while lane < LANES {
+            if bits >> lane & 1 == 1 {
+                lanes_of[bits][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    lanes_of
+}
+
+/// Whole blocks of values.
+fn blocks<T>(values: &[T]) -> impl Iterator<Item = &[T; LANES]> {
+    values.as_chunks().0.iter()
+}
+
 /// The people in the cells around one cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Around {
     cell: Option<Cell>,
     count: usize,
-    /// Places relative to the middle of the cell, m.
+    /// Places relative to the middle of the cell, m, in whole blocks.
     x: Vec<f32>,
     y: Vec<f32>,
     /// Their ranks in the grid.
@@ -52,18 +80,20 @@ impl Around {
         let middle = grid.middle(cell);
         for (ranks, mark) in grid.around(at) {
             self.make_room(ranks.len());
-            for (rank, _) in ranks
-                .clone()
-                .zip(grid.marks(ranks))
-                .filter(|(rank, other)| (**other == mark) & is_seen(*rank))
-            {
-                let seen = &grid.seen()[rank];
-                self.x[self.count] = (seen.at[0] - middle.x) as f32;
-                self.y[self.count] = (seen.at[1] - middle.y) as f32;
-                self.ranks[self.count] = rank as u32;
-                self.count += 1;
+            let marks = grid.marks(ranks.clone());
+            for ((seen, own), rank) in grid.seen()[ranks.clone()].iter().zip(marks).zip(ranks) {
+                // Who is elsewhere is not looked at.
+                if (*own == mark) & is_seen(rank) {
+                    self.x[self.count] = (seen.at[0] - middle.x) as f32;
+                    self.y[self.count] = (seen.at[1] - middle.y) as f32;
+                    self.ranks[self.count] = rank as u32;
+                    self.count += 1;
+                }
             }
         }
+        // The last block is filled up with nobody, out of sight.
+        self.make_room(LANES);
+        self.x[self.count..self.count + LANES].fill(f32::INFINITY);
     }
 
     /// Makes room for so many more.
@@ -86,25 +116,39 @@ pub(super) struct Me {
     pub(super) wish: Wish,
 }
 
-/// Those who matter to somebody, in blocks.
+/// Some of those who matter to somebody.
+#[derive(Clone, Copy, Debug, Default)]
+struct Block {
+    /// Offsets, m; not numbers where nobody is.
+    x: Lanes,
+    y: Lanes,
+    facing_x: Lanes,
+    facing_y: Lanes,
+    speed: Lanes,
+    /// Distance, m; infinite for who is out of view.
+    distance: Lanes,
+    /// How strongly they turn one aside.
+    aside: Lanes,
+}
+
+/// Those who matter to somebody.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Nearby {
+    /// One for those of all around who matter, else zero.
     matter: Vec<u32>,
+    /// Where those who matter are among those around.
     chosen: Vec<u32>,
-    /// Offsets, m.
-    x: Vec<f32>,
-    y: Vec<f32>,
-    /// Distance, m; infinite for who is out of view.
-    distance: Vec<f32>,
-    facing: [Vec<f32>; 2],
-    speed: Vec<f32>,
-    aside: Vec<f32>,
+    /// How many they are.
+    count: usize,
+    blocks: Vec<Block>,
     /// Ranks of those who could be run into before the next decision, wherever they are.
     pub(super) close: Vec<u32>,
 }
 
 /// A pair of single numbers.
 type Pair = [f32; 2];
+/// A number of each in a block.
+type Lanes = [f32; LANES];
 
 fn single(vector: Vector2) -> Pair {
     [vector.x as f32, vector.y as f32]
@@ -113,38 +157,18 @@ fn single(vector: Vector2) -> Pair {
 impl Nearby {
     /// With room for so many who matter, half of them close.
     pub(super) fn roomy(count: usize) -> Self {
-        let room = || Vec::with_capacity(count);
-        let (x, y, distance, speed, aside) = (room(), room(), room(), room(), room());
-        let facing = [room(), room()];
-        Self { x, y, distance, facing, speed, aside, close: Vec::with_capacity(count / 2), ..Self::default() }
+        let (blocks, close) = (Vec::with_capacity(count / LANES), Vec::with_capacity(count / 2));
+        Self { blocks, close, ..Self::default() }
     }
 
     /// Finds who matters to somebody: who is within reach and in view, or so close that one could run into them.
     pub(super) fn find(&mut self, rules: &Rules, grid: &Grid, around: &Around, me: &Me) {
         let middle = around.cell.map_or(me.person.position, |cell| grid.middle(cell));
-        let [own_x, own_y] = single(me.person.position - middle);
-        let (wish, ahead) = (single(me.wish.direction), single(me.person.direction));
+        let own = single(me.person.position - middle);
         let close = rules.close(me.wish.speed) as f32;
-        let (reach, near) = ((rules.reach * rules.reach) as f32, close * close);
-        let count = around.count;
-        if self.matter.len() < count {
-            self.matter.resize(2 * count, 0);
-            self.chosen.resize(2 * count, 0);
-        }
-        let places = around.x[..count].iter().zip(&around.y[..count]);
-        for (matters, (x, y)) in self.matter[..count].iter_mut().zip(places) {
-            let (x, y) = (x - own_x, y - own_y);
-            let square = x * x + y * y;
-            let in_view = (wish[0] * x + wish[1] * y >= 0.0) | (ahead[0] * x + ahead[1] * y >= 0.0);
-            *matters = u32::from(((square <= reach) & in_view) | (square <= near));
-        }
-        let mut chosen = 0;
-        let ranks = &around.ranks[..count];
-        for ((matters, rank), place) in self.matter[..count].iter().zip(ranks).zip(0..) {
-            self.chosen[chosen] = place;
-            chosen += (*matters & u32::from(*rank != me.rank as u32)) as usize;
-        }
-        self.take(grid, around, chosen, [own_x, own_y], near);
+        let near = close * close;
+        self.choose(rules, around, me, own, near);
+        self.take(grid, around, own, near);
         if !grid.is_crowd() {
             // In the order in which those of a crowd are found: whom one heeds first makes a difference.
             self.close.sort_unstable_by_key(|rank| {
@@ -154,24 +178,53 @@ impl Nearby {
         }
     }
 
-    fn take(&mut self, grid: &Grid, around: &Around, count: usize, own: Pair, near: f32) {
-        let [facing_x, facing_y] = &mut self.facing;
-        for field in [&mut self.x, &mut self.y, facing_x, facing_y, &mut self.speed] {
-            field.resize(count, 0.0);
+    /// Finds where those who matter are among those around.
+    fn choose(&mut self, rules: &Rules, around: &Around, me: &Me, [own_x, own_y]: Pair, near: f32) {
+        let (wish, ahead) = (single(me.wish.direction), single(me.person.direction));
+        let (reach, me) = ((rules.reach * rules.reach) as f32, me.rank as u32);
+        let room = around.count.next_multiple_of(LANES);
+        if self.matter.len() < room {
+            self.matter.resize(2 * room, 0);
+            self.chosen.resize(2 * room, 0);
         }
-        let fields = self.x.iter_mut().zip(&mut self.y).zip(facing_x).zip(facing_y).zip(&mut self.speed);
-        self.close.clear();
-        for (((((to_x, to_y), facing_x), facing_y), speed), place) in fields.zip(&self.chosen) {
-            let place = *place as usize;
-            let rank = around.ranks[place];
-            let seen = &grid.seen()[rank as usize];
-            let (x, y) = (around.x[place] - own[0], around.y[place] - own[1]);
-            if x * x + y * y <= near {
-                self.close.push(rank);
+        let places = around.x[..room].iter().zip(&around.y[..room]).zip(&around.ranks[..room]);
+        for (matters, ((x, y), rank)) in self.matter[..room].iter_mut().zip(places) {
+            let (x, y) = (x - own_x, y - own_y);
+            let square = x * x + y * y;
+            let in_view = (wish[0] * x + wish[1] * y >= 0.0) | (ahead[0] * x + ahead[1] * y >= 0.0);
+            *matters = u32::from((((square <= reach) & in_view) | (square <= near)) & (*rank != me));
+        }
+        self.count = 0;
+        for (matter, first) in blocks(&self.matter[..room]).zip((0..).step_by(LANES)) {
+            let [a, b, c, d] = matter.map(|matters| matters as usize);
+            // All lanes are written, those that are meant first: the next block goes over the others.
+            let chosen = &mut self.chosen[self.count..self.count + LANES];
+            let bits = a | b << 1 | c << 2 | d << 3;
+            for (chosen, lane) in chosen.iter_mut().zip(LANES_OF[bits % LANES_OF.len()]) {
+                *chosen = first + lane;
             }
-            (*to_x, *to_y) = (x, y);
-            [*facing_x, *facing_y] = seen.facing;
-            *speed = seen.speed;
+            self.count += a + b + c + d;
+        }
+    }
+
+    fn take(&mut self, grid: &Grid, around: &Around, own: Pair, near: f32) {
+        self.close.clear();
+        self.blocks.clear();
+        for places in self.chosen[..self.count].chunks(LANES) {
+            let mut block = Block { x: [f32::NAN; LANES], ..Block::default() };
+            for (place, lane) in places.iter().zip(0..LANES) {
+                let place = *place as usize;
+                let rank = around.ranks[place];
+                let seen = &grid.seen()[rank as usize];
+                let (x, y) = (around.x[place] - own[0], around.y[place] - own[1]);
+                if x * x + y * y <= near {
+                    self.close.push(rank);
+                }
+                (block.x[lane], block.y[lane]) = (x, y);
+                [block.facing_x[lane], block.facing_y[lane]] = seen.facing;
+                block.speed[lane] = seen.speed;
+            }
+            self.blocks.push(block);
         }
     }
 
@@ -186,43 +239,42 @@ impl Nearby {
         let (contact, wide) = (rules.contact as f32, rules.wide as f32);
         let (strength, slope) = (model.strength as f32, -LOG2_E / model.range as f32);
         let ahead = single(me.person.direction);
-        let count = self.x.len();
-        self.aside.resize(count, 0.0);
-        self.distance.resize(count, 0.0);
-        let (x, y, distances) = (&self.x[..count], &self.y[..count], &mut self.distance[..count]);
-        let (facing_x, facing_y) = (&self.facing[0][..count], &self.facing[1][..count]);
-        let speed = &self.speed[..count];
-        for (to, aside) in self.aside[..count].iter_mut().enumerate() {
-            let in_view =
-                (wish[0] * x[to] + wish[1] * y[to] >= 0.0) | (ahead[0] * x[to] + ahead[1] * y[to] >= 0.0);
-            let distance = (x[to] * x[to] + y[to] * y[to]).sqrt();
-            distances[to] = if in_view { distance } else { f32::INFINITY };
-            let along = wish[0] * facing_x[to] + wish[1] * facing_y[to];
-            // Towards those who walk one's own way one anticipates the speed one wants.
-            let own_x = if along > 0.0 { wanted[0] } else { moving[0] };
-            let own_y = if along > 0.0 { wanted[1] } else { moving[1] };
-            let (their_x, their_y) = (facing_x[to] * speed[to], facing_y[to] * speed[to]);
-            let apart = if distance > 1e-6 { distance } else { 1e-6 };
-            let closing = ((own_x - their_x) * x[to] + (own_y - their_y) * y[to]) / apart * anticipation;
-            let gap = apart - contact - closing;
-            let gap = if gap > 0.0 { gap } else { 0.0 };
-            let share = exp2(if gap < wide { gap } else { wide } * slope);
-            let share = if (gap <= wide) & in_view { share } else { 0.0 };
-            let push = strength * (1.5 - 0.5 * along) * share;
-            // Away from where they will be; to the right of those who come straight on.
-            let (then_x, then_y) = (x[to] + their_x * anticipation, y[to] + their_y * anticipation);
-            let on_left = wish[0] * then_y - wish[1] * then_x >= 0.0;
-            *aside = if on_left { -push } else { push };
+        for block in &mut self.blocks {
+            for lane in 0..LANES {
+                let (x, y) = (block.x[lane], block.y[lane]);
+                let (facing_x, facing_y) = (block.facing_x[lane], block.facing_y[lane]);
+                let in_view = (wish[0] * x + wish[1] * y >= 0.0) | (ahead[0] * x + ahead[1] * y >= 0.0);
+                let distance = (x * x + y * y).sqrt();
+                block.distance[lane] = if in_view { distance } else { f32::INFINITY };
+                let along = wish[0] * facing_x + wish[1] * facing_y;
+                // Towards those who walk one's own way one anticipates the speed one wants.
+                let own_x = if along > 0.0 { wanted[0] } else { moving[0] };
+                let own_y = if along > 0.0 { wanted[1] } else { moving[1] };
+                let (their_x, their_y) = (facing_x * block.speed[lane], facing_y * block.speed[lane]);
+                let apart = if distance > 1e-6 { distance } else { 1e-6 };
+                let closing = ((own_x - their_x) * x + (own_y - their_y) * y) / apart * anticipation;
+                let gap = apart - contact - closing;
+                let gap = if gap > 0.0 { gap } else { 0.0 };
+                let share = exp2(if gap < wide { gap } else { wide } * slope);
+                let share = if (gap <= wide) & in_view { share } else { 0.0 };
+                let push = strength * (1.5 - 0.5 * along) * share;
+                // Away from where they will be; to the right of those who come straight on.
+                let (then_x, then_y) = (x + their_x * anticipation, y + their_y * anticipation);
+                let on_left = wish[0] * then_y - wish[1] * then_x >= 0.0;
+                block.aside[lane] = if on_left { -push } else { push };
+            }
         }
-        self.aside.iter().map(|aside| f64::from(*aside)).sum()
+        let asides = self.blocks.iter().flat_map(|block| block.aside);
+        asides.take(self.count).map(f64::from).sum()
     }
 
     /// How who stands steps back from those in view who touch.
     pub(super) fn giving_way(&self, rules: &Rules) -> Vector2 {
         let mut back = Vector2::zeros();
-        for ((x, y), distance) in self.x.iter().zip(&self.y).zip(&self.distance) {
+        let lanes = self.blocks.iter().flat_map(|block| block.x.iter().zip(block.y).zip(block.distance));
+        for ((x, y), distance) in lanes {
             let touching = (distance - rules.contact as f32).max(0.0) * (LOG2_E / TOUCH);
-            if touching < 24.0 && *distance > 0.0 {
+            if touching < 24.0 && distance > 0.0 {
                 let share = rules.model.giving_way as f32 * exp2(-touching) / distance;
                 back -= Vector2::new(f64::from(x * share), f64::from(y * share));
             }
@@ -234,24 +286,16 @@ impl Nearby {
     pub(super) fn ahead(&self, rules: &Rules, direction: Vector2) -> f32 {
         let [ahead_x, ahead_y] = single(direction);
         let contact = rules.contact as f32;
-        let mut nearest = [f32::INFINITY; 4];
-        let mut blocks =
-            self.x.chunks_exact(4).zip(self.y.chunks_exact(4)).zip(self.distance.chunks_exact(4));
-        let nearer = |least: f32, x: f32, y: f32, distance: f32| {
-            let in_the_way =
-                (ahead_x * x + ahead_y * y > 0.0) & ((ahead_x * y - ahead_y * x).abs() <= contact);
-            if in_the_way & (distance < least) { distance } else { least }
-        };
-        for ((x, y), distance) in &mut blocks {
-            for lane in 0..4 {
-                nearest[lane] = nearer(nearest[lane], x[lane], y[lane], distance[lane]);
+        let mut nearest = [f32::INFINITY; LANES];
+        for block in &self.blocks {
+            for lane in 0..LANES {
+                let (x, y, distance) = (block.x[lane], block.y[lane], block.distance[lane]);
+                let in_the_way =
+                    (ahead_x * x + ahead_y * y > 0.0) & ((ahead_x * y - ahead_y * x).abs() <= contact);
+                let is_nearer = in_the_way & (distance < nearest[lane]);
+                nearest[lane] = if is_nearer { distance } else { nearest[lane] };
             }
         }
-        let whole = self.x.len() / 4 * 4;
-        let mut least = nearest.into_iter().fold(f32::INFINITY, f32::min);
-        for to in whole..self.x.len() {
-            least = nearer(least, self.x[to], self.y[to], self.distance[to]);
-        }
-        least
+        nearest.into_iter().fold(f32::INFINITY, f32::min)
     }
 }

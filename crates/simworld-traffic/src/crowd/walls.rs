@@ -91,7 +91,7 @@ impl Walls {
 impl Surroundings for Walls {
     fn near(&self, _: usize, at: Point2, found: &mut Vec<Wall>) {
         let from_low = at - self.low;
-        let (column, row) = ((from_low.x / self.width).floor(), (from_low.y / self.width).floor());
+        let (column, row) = (from_low.x / self.width, from_low.y / self.width);
         let inside = (0.0..self.columns as f64).contains(&column) && (0.0..self.rows as f64).contains(&row);
         if !inside {
             return;
