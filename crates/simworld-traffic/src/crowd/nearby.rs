@@ -288,12 +288,12 @@ impl Nearby {
         let contact = rules.contact as f32;
         let mut nearest = [f32::INFINITY; LANES];
         for block in &self.blocks {
-            for lane in 0..LANES {
+            for (lane, nearest) in nearest.iter_mut().enumerate() {
                 let (x, y, distance) = (block.x[lane], block.y[lane], block.distance[lane]);
                 let in_the_way =
                     (ahead_x * x + ahead_y * y > 0.0) & ((ahead_x * y - ahead_y * x).abs() <= contact);
-                let is_nearer = in_the_way & (distance < nearest[lane]);
-                nearest[lane] = if is_nearer { distance } else { nearest[lane] };
+                let is_nearer = in_the_way & (distance < *nearest);
+                *nearest = if is_nearer { distance } else { *nearest };
             }
         }
         nearest.into_iter().fold(f32::INFINITY, f32::min)
