@@ -35,7 +35,9 @@ impl Occupancy {
             (0..network.roads.len()).map(RoadId::from_index).filter(|road| roads(*road)).collect();
         // A bent street is some twenty strips; houses will come.
         let mut taken = Self::with_capacity(wanted.len() * 16);
-        wanted.into_iter().for_each(|road| taken.add_road(network, road));
+        for road in wanted {
+            taken.add_road(network, road);
+        }
         for (index, intersection) in network.intersections.iter().enumerate() {
             if junctions(IntersectionId::from_index(index)) {
                 taken.add_junction(network, intersection);

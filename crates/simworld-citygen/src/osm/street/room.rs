@@ -36,7 +36,7 @@ const SIDE: i64 = 512;
 struct Walls {
     /// Where the walls of each cell begin.
     starts: Vec<u32>,
-    walls: Vec<[Point2; 2]>,
+    pieces: Vec<[Point2; 2]>,
     /// Where there are any.
     mask: Mask,
 }
@@ -72,15 +72,19 @@ impl Walls {
             }
         }
         let mut starts = vec![0; (SIDE * SIDE) as usize + 1];
-        filed.iter().for_each(|(cell, _)| starts[*cell as usize + 1] += 1);
-        (1..starts.len()).for_each(|cell| starts[cell] += starts[cell - 1]);
-        let (mut next, mut walls) = (starts.clone(), vec![[Point2::origin(); 2]; filed.len()]);
+        for (cell, _) in &filed {
+            starts[*cell as usize + 1] += 1;
+        }
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let (mut next, mut pieces) = (starts.clone(), vec![[Point2::origin(); 2]; filed.len()]);
         for (cell, wall) in filed {
             let place = &mut next[cell as usize];
-            walls[*place as usize] = wall;
+            pieces[*place as usize] = wall;
             *place += 1;
         }
-        Self { starts, walls, mask }
+        Self { starts, pieces, mask }
     }
 
     /// How far one sees from a point in a direction, m; at most [`REACH`].
@@ -89,7 +93,7 @@ impl Walls {
         let (low, high) = (from.inf(&to), from.sup(&to));
         let mut share: f64 = 1.0;
         for cell in cells(low, high) {
-            for [a, b] in &self.walls[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+            for [a, b] in &self.pieces[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
                 let is_beside = a.x.max(b.x) < low.x
                     || a.x.min(b.x) > high.x
                     || a.y.max(b.y) < low.y
