@@ -258,7 +258,8 @@ fn tiles(rows: &mut Rows) -> Outcome<()> {
 /// A real place from its XML, with nothing but what its map has, and with the rest generated.
 fn place(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
     let text = match &arguments.osm {
-        Some(path) => fs::read_to_string(path)?,
+        Some(path) => fs::read_to_string(path)
+            .map_err(|error| format!("{}: {error}; it has to be OSM XML, not compressed", path.display()))?,
         None => as_extract(&City::generate(&config(arguments, arguments.streets / 100), Seed(6))?),
     };
     let megabytes = text.len() as f64 / 1e6;

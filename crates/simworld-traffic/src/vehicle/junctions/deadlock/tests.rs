@@ -197,9 +197,9 @@ fn the_rear_of_a_car_beside_a_narrow_place_is_in_the_way_of_long_vehicles_alone(
             && tracks.ways[*own].from != tracks.ways[*other].from
             && tracks.length[tracks.lane_after(*other) as usize] > 2.0
     };
-    let pairs = (0..tracks.ways.len())
+    let mut pairs = (0..tracks.ways.len())
         .flat_map(|own| tracks.tight[own].iter().map(move |other| (own, *other as usize)));
-    let (own, other) = pairs.clone().find(is_beside).expect("narrow places");
+    let (own, other) = pairs.find(is_beside).expect("narrow places");
     let put = |vehicles: &mut VehicleManager, lane: Track, one: Vehicle| {
         let one = Vehicle { id: vehicles.numbers() as u32, ..one };
         vehicles.whereabouts.push(lane);
