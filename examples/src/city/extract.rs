@@ -2,15 +2,13 @@
 
 use std::fmt::{self, Write};
 
-use simworld_citygen::City;
 use simworld_citygen::building::Building;
+use simworld_citygen::{City, GeoOrigin};
 use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadClass, StreetPlan};
 
-/// Where the middle of the city lies on the earth: longitude and latitude, degrees.
-const MIDDLE: Point2 = Point2::new(8.0, 50.0);
-/// Metres in a degree of longitude and of latitude there, by the ellipsoid WGS 84.
-const DEGREE: Point2 = Point2::new(71_695.8, 111_229.0);
+/// Where the origin of the city lies on the earth.
+const ORIGIN: GeoOrigin = GeoOrigin { latitude: 50.0, longitude: 8.0 };
 /// What else editors leave in every element.
 const EDITED: &str =
     "version=\"3\" timestamp=\"2024-03-22T14:09:45Z\" changeset=\"11480240\" uid=\"1\" user=\"somebody\"";
@@ -69,7 +67,7 @@ impl Extract {
     /// Writes a node and returns its number.
     fn node(&mut self, at: Point2) -> Result<usize, fmt::Error> {
         self.nodes += 1;
-        let (id, longitude, latitude) = (self.nodes, MIDDLE.x + at.x / DEGREE.x, MIDDLE.y + at.y / DEGREE.y);
+        let (id, [longitude, latitude]) = (self.nodes, ORIGIN.to_geographic(at));
         writeln!(self.text, "  <node id=\"{id}\" lat=\"{latitude:.7}\" lon=\"{longitude:.7}\" {EDITED}/>")?;
         Ok(id)
     }

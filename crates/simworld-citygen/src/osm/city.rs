@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
+use simworld_core::id::RoadId;
 use simworld_core::net::RoadNetwork;
 use simworld_core::scene::EntityKind;
 use simworld_core::seed::Seed;
@@ -129,13 +130,13 @@ fn provenance(place: &Place, seed: Seed) -> Provenance {
 
 /// The land of the roads on the ground; unless something will be generated, as far as things of the map may stand on it.
 fn land_of_roads(place: &Place, network: &RoadNetwork, off_ground: &[bool], is_filled: bool) -> Occupancy {
-    let near = Near::all(network, |road| !off_ground[road.index()]);
+    let on_ground = |road: RoadId| !off_ground[road.index()];
     if is_filled {
-        return near.land(network);
+        return Occupancy::of_roads_where(network, on_ground);
     }
     let mut mask = Mask::new();
     things::mark(place, &mut mask, things::LARGEST);
-    near.within(network, &mask, 0.0).land(network)
+    Near::of(network, on_ground, &mask, 0.0).land(network)
 }
 
 /// The buildings of the map that stand, out of the way of traffic, and what is driven on near what the map has.

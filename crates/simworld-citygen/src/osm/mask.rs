@@ -28,6 +28,11 @@ impl Mask {
         }
     }
 
+    /// Whether a piece of a path, and so much round it, touches a place that matters.
+    pub(super) fn touches_path(&self, path: &[Point2], beside: f64) -> bool {
+        path.windows(2).any(|piece| self.touches(piece, beside))
+    }
+
     /// Whether the box round some points, and so much round it, touches a place that matters.
     pub(super) fn touches(&self, points: &[Point2], beside: f64) -> bool {
         let Some(mut cells) = cells(points, beside) else { return true };

@@ -1,6 +1,6 @@
 //! Roads and junctions near the places that matter.
 
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::Vector2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{Intersection, Road, RoadNetwork, Sidewalk};
 
@@ -14,24 +14,25 @@ pub(super) struct Near {
 }
 
 impl Near {
-    /// Roads that count, and the junctions at which one of them ends.
-    pub(super) fn all(network: &RoadNetwork, counts: impl Fn(RoadId) -> bool) -> Self {
-        let roads: Vec<bool> =
-            (0..network.roads.len()).map(|road| counts(RoadId::from_index(road))).collect();
-        let meets = |junction: &Intersection| junction.roads.iter().any(|road| roads[road.index()]);
-        let junctions = network.intersections.iter().map(meets).collect();
-        Self { roads, junctions }
-    }
-
-    /// Of them those whose land, and so much round it, m, touches a place that matters; some others may be among them.
-    pub(super) fn within(mut self, network: &RoadNetwork, mask: &Mask, beside: f64) -> Self {
-        for (road, is_near) in network.roads.iter().zip(&mut self.roads) {
-            *is_near = *is_near && touches_road(network, road, mask, beside);
+    /// Of the roads that count, and of the junctions at which one of them ends, those whose land, and so much round it, m,
+    /// touches a place that matters; some others may be among them.
+    pub(super) fn of(
+        network: &RoadNetwork,
+        counts: impl Fn(RoadId) -> bool,
+        mask: &Mask,
+        beside: f64,
+    ) -> Self {
+        let is_near_road = |(index, road): (usize, &Road)| {
+            counts(RoadId::from_index(index)) && touches_road(network, road, mask, beside)
+        };
+        let is_near_junction = |junction: &Intersection| {
+            junction.roads.iter().any(|road| counts(*road))
+                && touches_junction(network, junction, mask, beside)
+        };
+        Self {
+            roads: network.roads.iter().enumerate().map(is_near_road).collect(),
+            junctions: network.intersections.iter().map(is_near_junction).collect(),
         }
-        for (junction, is_near) in network.intersections.iter().zip(&mut self.junctions) {
-            *is_near = *is_near && touches_junction(network, junction, mask, beside);
-        }
-        self
     }
 
     /// The land that they take.
@@ -48,17 +49,12 @@ fn touches_road(network: &RoadNetwork, road: &Road, mask: &Mask, beside: f64) ->
     // Round the outside of a bend the kerb is at most twice as far from the middle.
     let kerbs = 2.0 * road.left_kerb.max(road.right_kerb).max(0.0) + beside;
     let mut sidewalks = road.sidewalks.iter().flatten().map(|sidewalk| &network.sidewalks[sidewalk.index()]);
-    touches_path(&road.centerline, mask, kerbs)
-        || sidewalks.any(|walk| touches_walk(road, walk, mask, beside))
+    mask.touches_path(&road.centerline, kerbs) || sidewalks.any(|walk| touches_walk(road, walk, mask, beside))
 }
 
 /// From the outer edge of a sidewalk to the middle of the road.
 fn touches_walk(road: &Road, walk: &Sidewalk, mask: &Mask, beside: f64) -> bool {
-    touches_path(&walk.path, mask, walk.width * 0.5 + road.left_kerb.max(road.right_kerb).max(0.0) + beside)
-}
-
-fn touches_path(path: &[Point2], mask: &Mask, beside: f64) -> bool {
-    path.windows(2).any(|pair| mask.touches(pair, beside))
+    mask.touches_path(&walk.path, walk.width * 0.5 + road.left_kerb.max(road.right_kerb).max(0.0) + beside)
 }
 
 fn touches_junction(network: &RoadNetwork, junction: &Intersection, mask: &Mask, beside: f64) -> bool {
@@ -68,13 +64,14 @@ fn touches_junction(network: &RoadNetwork, junction: &Intersection, mask: &Mask,
         [circle.center - out, circle.center + out]
     });
     mask.touches(&junction.outline, beside)
-        || junction.corners.iter().any(|corner| touches_path(corner, mask, walk + beside))
+        || junction.corners.iter().any(|corner| mask.touches_path(corner, walk + beside))
         || circle.is_some_and(|corners| mask.touches(&corners, beside))
         || junction.hammerhead.is_some_and(|head| mask.touches(&head.tips, head.width * 0.5 + beside))
 }
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::geometry::Point2;
     use simworld_core::net::NetworkConfig;
     use simworld_core::seed::Seed;
 
@@ -86,8 +83,7 @@ mod tests {
         let mut plan = crate::growth::grow(&Style::Organic.roads(60), Seed(4));
         plan.make_turning_room();
         let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
-        let all = Near::all(&network, |_| true);
-        let everywhere = all.land(&network);
+        let everywhere = Occupancy::of_roads(&network);
         let mut rng = Seed(8).stream("near").rng();
         let middles: Vec<Point2> = network.intersections.iter().map(|junction| junction.center).collect();
         let (mut free, mut taken) = (0, 0);
@@ -98,7 +94,7 @@ mod tests {
                 [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| at + Vector2::new(x, y));
             let mut mask = Mask::new();
             mask.mark(&square, 0.0);
-            let near = Near::all(&network, |_| true).within(&network, &mask, 0.0);
+            let near = Near::of(&network, |_| true, &mask, 0.0);
             assert!(near.roads.iter().filter(|is_near| **is_near).count() < network.roads.len() / 2);
             let is_free = near.land(&network).is_free(&square);
             assert_eq!(is_free, everywhere.is_free(&square), "at {at}");

@@ -69,7 +69,7 @@ pub(super) fn set(
 ) -> Vec<Element> {
     let mut mask = Mask::new();
     mark(place, &mut mask, FARTHEST_STREET);
-    let is_near = |walk: &Sidewalk| walk.path.windows(2).any(|piece| mask.touches(piece, 0.0));
+    let is_near = |walk: &Sidewalk| mask.touches_path(&walk.path, 0.0);
     let doors = Doors::of_some(network, FARTHEST_STREET, is_near);
     let mut elements = Vec::new();
     let mut try_to_set = |kind: EntityKind, shape: Shape, position: Point2, element: OsmId| {

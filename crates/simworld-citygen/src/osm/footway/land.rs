@@ -30,8 +30,7 @@ impl Land {
     pub(super) fn of(network: &RoadNetwork, buildings: &[Building], mask: &Mask) -> Self {
         let (mut driven, mut beside, mut walls) =
             (Occupancy::default(), Occupancy::default(), Occupancy::default());
-        let near = Near::all(network, |road| network.roads[road.index()].level == 0);
-        let near = near.within(network, mask, FOLLOWS + HALF);
+        let near = Near::of(network, |road| network.roads[road.index()].level == 0, mask, FOLLOWS + HALF);
         for (road, _) in network.roads.iter().zip(&near.roads).filter(|(_, is_near)| **is_near) {
             take_carriageway(road, &mut driven);
             for walk in road.sidewalks.iter().flatten().map(|walk| &network.sidewalks[walk.index()]) {

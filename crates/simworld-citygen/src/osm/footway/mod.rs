@@ -40,8 +40,7 @@ pub(super) fn paths(place: &Place, network: &RoadNetwork, buildings: &[Building]
     let mut mask = Mask::new();
     drawn.iter().flat_map(|way| way.path.windows(2)).for_each(|piece| mask.mark(piece, JOINS));
     let land = Land::of(network, buildings, &mask);
-    let doors =
-        Doors::of_some(network, JOINS, |walk| walk.path.windows(2).any(|piece| mask.touches(piece, 0.0)));
+    let doors = Doors::of_some(network, JOINS, |walk| mask.touches_path(&walk.path, 0.0));
     let door = |at: &Point2| {
         let door = doors.nearest(network, *at)?;
         let is_level = network.roads[door.road.index()].level == 0;

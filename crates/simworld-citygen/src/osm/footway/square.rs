@@ -44,7 +44,8 @@ impl<'a> Square<'a> {
             return Vec::new();
         }
         let entrances = &entrances[..entrances.len().min(MOST_PLACES)];
-        let jutting = others.into_iter().filter(|index| self.juts(*index));
+        let area = self.area();
+        let jutting = others.into_iter().filter(|index| self.turn(*index) * area < 0.0);
         let places: Vec<usize> = entrances.iter().copied().chain(jutting).take(MOST_PLACES).collect();
         let shortest = self.shortest(&places);
         let ranks = 0..entrances.len();
@@ -70,15 +71,15 @@ impl<'a> Square<'a> {
         lines
     }
 
-    /// Whether the edge of the square bends inwards at a corner.
-    fn juts(&self, index: usize) -> bool {
+    /// How the edge of the square turns at a corner: where it bends inwards, against the sign of its area.
+    fn turn(&self, index: usize) -> f64 {
         let count = self.corners.len();
         let (before, at, after) = (
             self.corners[(index + count - 1) % count],
             self.corners[index],
             self.corners[(index + 1) % count],
         );
-        (at - before).perp(&(after - at)) * self.area() < 0.0
+        (at - before).perp(&(after - at))
     }
 
     /// Twice its area, positive if its corners go round counter-clockwise, m².
