@@ -15,6 +15,7 @@ use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use simworld_agents::thought::Waking;
 use simworld_examples::delivery::{Brain, Eyes, OutputFolder, RunConfig, Watch, play, replay, resume};
+use simworld_examples::exit_code;
 use simworld_examples::experiment::{Preset, Results, conduct, keep_rows};
 use simworld_examples::report::{holds_run, keep_index, write_report};
 
@@ -72,7 +73,8 @@ struct Arguments {
     /// Goes on with the run of this folder by its own settings, or with --preset with its experiment; give the same settings.
     #[arg(long, value_name = "DIR", conflicts_with = "out")]
     resume: Option<PathBuf>,
-    /// Who decides, dealt to the couriers in turn: policies by name, and `model` [default: the twelve policies].
+    /// Who decides, dealt to the couriers in turn: policies by name, and `model` [default: the model if there is
+    /// one, else the twelve policies].
     #[arg(long, value_name = "MINDS", value_delimiter = ',')]
     mind: Vec<Brain>,
     /// Couriers think with the model behind this OpenAI-compatible address.
@@ -105,18 +107,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            let mut cause = error.source();
-            while let Some(inner) = cause {
-                eprintln!("  because: {inner}");
-                cause = inner.source();
-            }
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 type Fault = Box<dyn std::error::Error>;
@@ -202,16 +193,30 @@ fn configure(arguments: &Arguments) -> Result<RunConfig, Fault> {
     if arguments.city.is_some() {
         config.city_file.clone_from(&arguments.city);
     }
-    configure_minds(&mut config, arguments);
+    choose_minds(&mut config, arguments)?;
+    configure_model(&mut config, arguments);
     config.validate()?;
     Ok(config)
 }
 
-/// Who decides, and how those with a model think.
-fn configure_minds(config: &mut RunConfig, arguments: &Arguments) {
+/// Who decides.
+fn choose_minds(config: &mut RunConfig, arguments: &Arguments) -> Result<(), Fault> {
+    let has_model = arguments.model.is_some() || arguments.tape.is_some();
     if !arguments.mind.is_empty() {
         config.policies.clone_from(&arguments.mind);
+    } else if has_model && arguments.config.is_none() {
+        config.policies = vec![Brain::Model];
     }
+    if has_model && !config.policies.contains(&Brain::Model) {
+        return Err(
+            "nobody would think with the model: add `model` to --mind, or to `policies` of the file".into()
+        );
+    }
+    Ok(())
+}
+
+/// How those with a model think.
+fn configure_model(config: &mut RunConfig, arguments: &Arguments) {
     let model = &mut config.model;
     set(&mut model.url, arguments.model.clone().map(Some).as_ref());
     set(&mut model.name, arguments.model_name.as_ref());

@@ -97,7 +97,7 @@ impl Default for RunConfig {
 #[non_exhaustive]
 pub enum ConfigError {
     /// The file cannot be read.
-    #[error("{path}: {source}")]
+    #[error("{path}: {source}; settings are read from there, of a run from its folder")]
     File {
         /// Which file.
         path: PathBuf,
