@@ -72,11 +72,7 @@ struct Piece {
 pub(super) fn crossings(web: &Web) -> (Vec<Crossing>, bool) {
     let mut pieces = Vec::new();
     for (edge, _) in web.living() {
-        let mut station = 0.0;
-        for pair in web.course(edge).windows(2) {
-            pieces.push(Piece { edge, ends: [pair[0], pair[1]], station });
-            station += (pair[1] - pair[0]).norm();
-        }
+        put_pieces(web, edge, &mut pieces);
     }
     let mut cells: Vec<(u64, u32)> = Vec::with_capacity(pieces.len() * 2);
     let mut is_complete = true;
@@ -108,6 +104,23 @@ pub(super) fn crossings(web: &Web) -> (Vec<Crossing>, bool) {
     // Two pieces may share several cells.
     found.dedup_by(|a, b| a.edges == b.edges && (a.stations[0] - b.stations[0]).abs() < 1e-6);
     (found, is_complete)
+}
+
+/// Whether two streets cross away from common nodes.
+pub(super) fn do_cross(web: &Web, a: u32, b: u32) -> bool {
+    let [mut own, mut theirs] = [Vec::new(), Vec::new()];
+    put_pieces(web, a, &mut own);
+    put_pieces(web, b, &mut theirs);
+    own.iter().any(|piece| theirs.iter().any(|other| meeting(web, piece, other).is_some()))
+}
+
+/// The pieces of an edge, in order.
+fn put_pieces(web: &Web, edge: u32, pieces: &mut Vec<Piece>) {
+    let mut station = 0.0;
+    for pair in web.course(edge).windows(2) {
+        pieces.push(Piece { edge, ends: [pair[0], pair[1]], station });
+        station += (pair[1] - pair[0]).norm();
+    }
 }
 
 /// Files a piece under the cells that its box covers; says whether it is small enough.

@@ -9,6 +9,7 @@ use simworld_core::geometry::{Point2, direction, heading};
 use simworld_core::net::polyline;
 use simworld_core::ops;
 
+use super::cross::do_cross;
 use super::web::Web;
 
 /// How far a course is straight at least, m.
@@ -171,7 +172,7 @@ fn dissolve_hairpins(web: &mut Web) {
     }
 }
 
-/// Spreads streets that leave a node almost together: the lesser of two gives way, if there is room on its other side.
+/// Spreads streets that leave a node almost together: the lesser of two gives way, if there is room on its other side, or else the other.
 fn spread(web: &mut Web, node: u32) {
     for _ in 0..web.degree(node) {
         let legs = legs(web, node);
@@ -196,14 +197,39 @@ fn spread(web: &mut Web, node: u32) {
         if leg.edge == next.edge {
             return;
         }
-        let (moved, turned) =
-            if moves_next { (next, leg.angle + NARROW) } else { (leg, next.angle - NARROW) };
-        turn_end(web, moved, turned);
+        let mut choices = [(leg, next.angle - NARROW), (next, leg.angle + NARROW)];
+        if moves_next {
+            choices.reverse();
+        }
+        if !choices.into_iter().any(|(moved, turned)| is_turned(web, moved, turned)) {
+            return;
+        }
     }
 }
 
-/// Lets a street leave its node in another direction, and come back to its course after a while.
-fn turn_end(web: &mut Web, leg: Leg, angle: f64) {
+/// Lets a street leave its node in another direction, unless that would lead it across another street of its junctions.
+fn is_turned(web: &mut Web, leg: Leg, angle: f64) -> bool {
+    let before = turn_end(web, leg, angle);
+    if !crosses_beside(web, leg.edge) {
+        return true;
+    }
+    let turned = std::mem::replace(&mut web.edges[leg.edge as usize].via, before);
+    // What crossed before does so still.
+    let is_no_worse = crosses_beside(web, leg.edge);
+    if is_no_worse {
+        web.edges[leg.edge as usize].via = turned;
+    }
+    is_no_worse
+}
+
+/// Whether a street crosses another one of its junctions.
+fn crosses_beside(web: &Web, edge: u32) -> bool {
+    let beside = web.edge(edge).ends.into_iter().flat_map(|node| &web.node(node).edges);
+    beside.filter(|other| **other != edge).any(|other| do_cross(web, edge, *other))
+}
+
+/// Lets a street leave its node in another direction, and come back to its course after a while; returns the points that it had.
+fn turn_end(web: &mut Web, leg: Leg, angle: f64) -> Vec<Point2> {
     let Leg { edge, end, .. } = leg;
     let mut course = web.course(edge);
     if end == 1 {
@@ -224,5 +250,5 @@ fn turn_end(web: &mut Web, leg: Leg, angle: f64) {
     if end == 1 {
         via.reverse();
     }
-    web.edges[edge as usize].via = via;
+    std::mem::replace(&mut web.edges[edge as usize].via, via)
 }
