@@ -201,15 +201,16 @@ fn spread(web: &mut Web, node: u32) {
         if moves_next {
             choices.reverse();
         }
-        if !choices.into_iter().any(|(moved, turned)| is_turned(web, moved, turned)) {
+        let mut ways = choices.into_iter().flat_map(|choice| [1.0, 0.5].map(|share| (choice, share)));
+        if !ways.any(|((moved, turned), share)| is_turned(web, moved, turned, SPREAD * share)) {
             return;
         }
     }
 }
 
-/// Lets a street leave its node in another direction, unless that would lead it across another street of its junctions.
-fn is_turned(web: &mut Web, leg: Leg, angle: f64) -> bool {
-    let before = turn_end(web, leg, angle);
+/// Lets a street leave its node in another direction for so far, m, unless that would lead it across another street of its junctions.
+fn is_turned(web: &mut Web, leg: Leg, angle: f64, reach: f64) -> bool {
+    let before = turn_end(web, leg, angle, reach);
     if !crosses_beside(web, leg.edge) {
         return true;
     }
@@ -229,14 +230,14 @@ fn crosses_beside(web: &Web, edge: u32) -> bool {
 }
 
 /// Lets a street leave its node in another direction, and come back to its course after a while; returns the points that it had.
-fn turn_end(web: &mut Web, leg: Leg, angle: f64) -> Vec<Point2> {
+fn turn_end(web: &mut Web, leg: Leg, angle: f64, reach: f64) -> Vec<Point2> {
     let Leg { edge, end, .. } = leg;
     let mut course = web.course(edge);
     if end == 1 {
         course.reverse();
     }
     let length = polyline::length(&course);
-    let reach = SPREAD.min(length * SHARE);
+    let reach = reach.min(length * SHARE);
     let turned = course[0] + direction(angle) * reach;
     let mut via = vec![turned];
     let mut walked = 0.0;
