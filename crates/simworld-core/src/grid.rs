@@ -1,6 +1,7 @@
 //! A uniform grid over fixed points in the plane: what is nearest, and what is within a distance.
 
 use crate::geometry::{Point2, Vector2};
+use crate::lists::Lists;
 
 /// More cells than this are not made; the cells grow instead.
 const MOST_CELLS: f64 = 4e6;
@@ -23,9 +24,8 @@ pub struct PointGrid {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// The points of cell i are `order[starts[i]..starts[i + 1]]`.
-    starts: Vec<u32>,
-    order: Vec<u32>,
+    /// The points of each cell.
+    cells: Lists<u32>,
     points: Vec<Point2>,
 }
 
@@ -38,21 +38,9 @@ impl PointGrid {
         let cell = cell.max((size.x * size.y / MOST_CELLS).sqrt()).max(size.max() / MOST_CELLS);
         let columns = (size.x / cell) as usize + 1;
         let rows = (size.y / cell) as usize + 1;
-        let starts = vec![0; columns * rows + 1];
-        let mut grid = Self { origin: low, cell, columns, rows, starts, order: Vec::new(), points };
+        let mut grid = Self { origin: low, cell, columns, rows, cells: Lists::default(), points };
         let cells: Vec<usize> = grid.points.iter().map(|point| grid.cell_of(*point)).collect();
-        for cell in &cells {
-            grid.starts[cell + 1] += 1;
-        }
-        for index in 1..grid.starts.len() {
-            grid.starts[index] += grid.starts[index - 1];
-        }
-        let mut next = grid.starts.clone();
-        grid.order = vec![0; grid.points.len()];
-        for (point, cell) in cells.into_iter().enumerate() {
-            grid.order[next[cell] as usize] = point as u32;
-            next[cell] += 1;
-        }
+        grid.cells = Lists::of(columns * rows, cells.into_iter().zip(0..));
         grid
     }
 
@@ -108,7 +96,7 @@ impl PointGrid {
         let ((left, bottom), (right, top)) = (self.column_row(point - reach), self.column_row(point + reach));
         for row in bottom..=top {
             let (first, last) = (row * self.columns + left, row * self.columns + right);
-            let candidates = &self.order[self.starts[first] as usize..self.starts[last + 1] as usize];
+            let candidates = self.cells.run(first..=last);
             let near = |index: &&u32| (self.points[**index as usize] - point).norm() <= distance;
             out.extend(candidates.iter().filter(near));
         }
@@ -133,8 +121,7 @@ impl PointGrid {
             let on_edge = r == bottom || r == top;
             let step = if on_edge || ring == 0 { 1 } else { (right - left) as usize };
             for c in (left..=right).step_by(step).filter(|c| inside(*c, r)) {
-                let cell = r as usize * self.columns + c as usize;
-                for point in &self.order[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+                for point in &self.cells[r as usize * self.columns + c as usize] {
                     visitor(*point);
                 }
             }

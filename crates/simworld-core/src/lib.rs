@@ -21,6 +21,7 @@ pub mod intent;
 pub mod kinematic;
 pub mod limbs;
 pub mod links;
+pub mod lists;
 pub mod net;
 pub mod ops;
 pub mod passage;

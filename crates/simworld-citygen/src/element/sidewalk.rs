@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use rayon::prelude::*;
 use simworld_core::geometry::Point2;
 use simworld_core::id::SidewalkId;
+use simworld_core::lists::Lists;
 use simworld_core::net::{RoadClass, Side, Sidewalk};
 use simworld_core::scene::{EntityKind, Place, Shape};
 use simworld_core::seed::{Stream, StreamRng};
@@ -130,11 +131,7 @@ pub(super) fn count(mean: f64, rng: &mut StreamRng) -> u64 {
 }
 
 /// The buildings at every sidewalk.
-struct Doors {
-    /// The first entry of each sidewalk, and the end of the last.
-    starts: Vec<u32>,
-    buildings: Vec<u32>,
-}
+struct Doors(Lists<u32>);
 
 impl Doors {
     fn of(setting: &Setting<'_>) -> Self {
@@ -144,26 +141,13 @@ impl Doors {
             let road = network.roads.get(building.road.index())?;
             road.sidewalks[usize::from(building.side == Side::Right)].map(SidewalkId::index)
         };
-        let mut starts = vec![0_u32; network.sidewalks.len() + 1];
-        for index in (0..setting.buildings.len()).filter_map(sidewalk) {
-            starts[index + 1] += 1;
-        }
-        for index in 1..starts.len() {
-            starts[index] += starts[index - 1];
-        }
-        let mut next = starts.clone();
-        let mut buildings = vec![0; starts.last().map_or(0, |last| *last as usize)];
-        for building in 0..setting.buildings.len() {
-            if let Some(index) = sidewalk(building) {
-                buildings[next[index] as usize] = building as u32;
-                next[index] += 1;
-            }
-        }
-        Self { starts, buildings }
+        let filed =
+            (0..setting.buildings.len()).filter_map(|building| Some((sidewalk(building)?, building as u32)));
+        Self(Lists::of(network.sidewalks.len(), filed))
     }
 
     fn at(&self, sidewalk: usize) -> &[u32] {
-        &self.buildings[self.starts[sidewalk] as usize..self.starts[sidewalk + 1] as usize]
+        &self.0[sidewalk]
     }
 }
 

@@ -1,6 +1,7 @@
 //! A graph from a plan.
 
 use simworld_core::geometry::Point2;
+use simworld_core::lists::Lists;
 use simworld_core::net::{Street, StreetPlan};
 
 use super::{FaceId, GraphError, NONE, Node, PieceGrid, StreetGraph, StreetId};
@@ -128,26 +129,13 @@ impl StreetGraph {
 
     /// Orders the streets around every node, by counting and then by direction.
     fn link_nodes(&mut self) {
-        let mut starts = vec![0_u32; self.nodes.len() + 1];
-        for street in self.streets.iter().flatten() {
-            starts[street.from + 1] += 1;
-            starts[street.to + 1] += 1;
-        }
+        let halves = self.streets.iter().zip((0..).step_by(2)).filter_map(|(street, half)| {
+            let street = street.as_ref()?;
+            Some([(street.from, half), (street.to, half + 1)])
+        });
+        let mut leaving = Lists::of(self.nodes.len(), halves.flatten());
         for node in 0..self.nodes.len() {
-            starts[node + 1] += starts[node];
-        }
-        let mut leaving = vec![0; 2 * self.streets.len()];
-        let mut filled = starts.clone();
-        for (index, street) in self.streets.iter().enumerate() {
-            let Some(street) = street else { continue };
-            for (half, node) in [(2 * index, street.from), (2 * index + 1, street.to)] {
-                leaving[filled[node] as usize] = half as u32;
-                filled[node] += 1;
-            }
-        }
-        for node in 0..self.nodes.len() {
-            let range = starts[node] as usize..starts[node + 1] as usize;
-            self.link_all(node as u32, &mut leaving[range]);
+            self.link_all(node as u32, &mut leaving[node]);
         }
     }
 }

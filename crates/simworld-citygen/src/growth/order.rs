@@ -1,6 +1,7 @@
 //! The order in which grown streets are numbered.
 
 use simworld_core::geometry::Point2;
+use simworld_core::lists::Lists;
 
 /// Towns of no more streets than this are numbered as they grew: all that is known of them fits into the caches.
 const SMALL: usize = 4096;
@@ -32,20 +33,7 @@ pub(super) fn by_land(segments: Vec<u32>, reach: f64, length: f64, at: impl Fn(u
 
 /// Sorts by counting: numbers by their keys, which are below `keys`, and in their order where those are the same.
 fn sorted(numbers: &[u32], by: &[u32], keys: usize) -> Vec<u32> {
-    let mut places = vec![0_u32; keys + 1];
-    for key in by {
-        places[*key as usize + 1] += 1;
-    }
-    for key in 0..keys {
-        places[key + 1] += places[key];
-    }
-    let mut sorted = vec![0; numbers.len()];
-    for (number, key) in numbers.iter().zip(by) {
-        let place = &mut places[*key as usize];
-        sorted[*place as usize] = *number;
-        *place += 1;
-    }
-    sorted
+    Lists::of(keys, by.iter().map(|key| *key as usize).zip(numbers.iter().copied())).into_values()
 }
 
 /// The bits of a number of ten bits, with a zero between each two.

@@ -4,6 +4,7 @@
 mod words;
 
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::lists::Lists;
 use simworld_core::net::{RoadClass, Street, StreetPlan, polyline};
 use simworld_core::seed::Seed;
 
@@ -54,26 +55,12 @@ pub fn streets(plan: &mut StreetPlan, seed: Seed) {
 /// Which street goes on beyond the beginning and beyond the end of each: at every junction the pairs that turn least.
 fn onward(plan: &StreetPlan) -> Vec<[u32; 2]> {
     let mut onward = vec![[NONE; 2]; plan.streets.len()];
-    let mut starts = vec![0_u32; plan.nodes.len() + 1];
-    for street in &plan.streets {
-        starts[street.from + 1] += 1;
-        starts[street.to + 1] += 1;
-    }
-    for node in 1..starts.len() {
-        starts[node] += starts[node - 1];
-    }
     // Half 2i leaves the beginning of street i, half 2i + 1 its end.
-    let mut halves = vec![0_u32; 2 * plan.streets.len()];
-    let mut filled = starts.clone();
-    for (index, street) in plan.streets.iter().enumerate() {
-        for (half, node) in [(2 * index, street.from), (2 * index + 1, street.to)] {
-            halves[filled[node] as usize] = half as u32;
-            filled[node] += 1;
-        }
-    }
+    let halves =
+        Lists::of(plan.nodes.len(), plan.streets.iter().flat_map(|street| [street.from, street.to]).zip(0..));
     let mut pairs: Vec<(f64, u32, u32)> = Vec::new();
     for node in 0..plan.nodes.len() {
-        let here = &halves[starts[node] as usize..starts[node + 1] as usize];
+        let here: &[u32] = &halves[node];
         pairs.clear();
         for (rank, a) in here.iter().enumerate() {
             for b in &here[rank + 1..] {

@@ -10,7 +10,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use simworld_core::geometry::Point2;
-use simworld_core::net::{StreetPlan, polyline};
+use simworld_core::lists::Lists;
+use simworld_core::net::{Street, StreetPlan, polyline};
 
 use super::{HeightField, TerrainConfig};
 
@@ -39,13 +40,8 @@ pub fn elevations(plan: &StreetPlan, land: &dyn HeightField, config: &TerrainCon
     highest_below.iter().zip(lowest_above).map(|(below, above)| (below - above) * 0.5).collect()
 }
 
-/// The streets at every node, and how far each may rise.
-struct Ways {
-    /// The first entry of each node, and the end of the last.
-    starts: Vec<usize>,
-    /// The node at the other end, and the most that it may lie higher or lower, m.
-    entries: Vec<(usize, f64)>,
-}
+/// The streets at every node: the node at the other end of each, and the most that it may lie higher or lower, m.
+struct Ways(Lists<(usize, f64)>);
 
 /// A height that waits to be spread; ordered by height, then by node.
 #[derive(PartialEq)]
@@ -67,24 +63,13 @@ impl PartialOrd for Waiting {
 
 impl Ways {
     fn of(plan: &StreetPlan, config: &TerrainConfig) -> Self {
-        let mut starts = vec![0; plan.nodes.len() + 1];
-        for street in &plan.streets {
-            starts[street.from + 1] += 1;
-            starts[street.to + 1] += 1;
-        }
-        for node in 1..starts.len() {
-            starts[node] += starts[node - 1];
-        }
-        let mut next = starts.clone();
-        let mut entries = vec![(0, 0.0); 2 * plan.streets.len()];
-        for street in &plan.streets {
-            let rise = config.grade(street.class) * polyline::length(&plan.centerline(street)) * KEPT;
-            for (here, there) in [(street.from, street.to), (street.to, street.from)] {
-                entries[next[here]] = (there, rise);
-                next[here] += 1;
-            }
-        }
-        Self { starts, entries }
+        let rise =
+            |street: &Street| config.grade(street.class) * polyline::length(&plan.centerline(street)) * KEPT;
+        let rises: Vec<f64> = plan.streets.iter().map(rise).collect();
+        let ends = plan.streets.iter().zip(&rises).flat_map(|(street, rise)| {
+            [(street.from, (street.to, *rise)), (street.to, (street.from, *rise))]
+        });
+        Self(Lists::of(plan.nodes.len(), ends))
     }
 
     /// For every node the least of all heights plus the way from where they are.
@@ -95,7 +80,7 @@ impl Ways {
             if height > heights[node] {
                 continue;
             }
-            for (there, rise) in &self.entries[self.starts[node]..self.starts[node + 1]] {
+            for (there, rise) in &self.0[node] {
                 if height + rise < heights[*there] {
                     heights[*there] = height + rise;
                     queue.push(Reverse(Waiting(heights[*there], *there)));

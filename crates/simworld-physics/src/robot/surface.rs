@@ -2,6 +2,7 @@
 
 use simworld_core::asset::{Model, ModelPart, ModelVertex, Paint};
 use simworld_core::geometry::Vector3;
+use simworld_core::lists::Lists;
 use simworld_core::ops;
 
 /// Faces that lean against one another by less than this are one rounded surface, rad: 40°.
@@ -55,38 +56,21 @@ impl Surface {
     }
 }
 
-/// Which faces meet at each corner, one run behind another.
-struct Rounding {
-    starts: Vec<u32>,
-    faces: Vec<u32>,
-}
+/// Which faces meet at each corner.
+struct Rounding(Lists<u32>);
 
 impl Rounding {
     fn of(faces: &[([u32; 3], Vector3)], corners: usize) -> Self {
-        let mut starts = vec![0_u32; corners + 1];
-        for corner in faces.iter().flat_map(|(corners, _)| corners) {
-            starts[*corner as usize + 1] += 1;
-        }
-        for corner in 0..corners {
-            starts[corner + 1] += starts[corner];
-        }
-        let mut next = starts.clone();
-        let mut around = vec![0; 3 * faces.len()];
-        for (face, (corners, _)) in faces.iter().enumerate() {
-            for corner in corners {
-                around[next[*corner as usize] as usize] = face as u32;
-                next[*corner as usize] += 1;
-            }
-        }
-        Self { starts, faces: around }
+        let around =
+            faces.iter().zip(0..).flat_map(|((at, _), face)| at.map(|corner| (corner as usize, face)));
+        Self(Lists::of(corners, around))
     }
 
     /// The normal of a face at one of its corners: the mean of those that go on round it there, or its own.
     fn normal(&self, corner: u32, own: &Vector3, faces: &[([u32; 3], Vector3)]) -> Vector3 {
-        let [from, to] = [corner, corner + 1].map(|at| self.starts[at as usize] as usize);
         let least = ops::cos(CREASE);
         // At a fan of very many faces the mean of some of them says as much.
-        let met = self.faces[from..to].iter().take(64).map(|face| faces[*face as usize].1);
+        let met = self.0[corner as usize].iter().take(64).map(|face| faces[*face as usize].1);
         let sum: Vector3 = met.filter(|normal| normal.dot(own) >= least).sum();
         sum.try_normalize(1e-9).unwrap_or(*own)
     }

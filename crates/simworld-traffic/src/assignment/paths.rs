@@ -3,12 +3,13 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use simworld_core::lists::Lists;
+
 use super::Link;
 
 /// Links by the node that they leave.
 pub(super) struct Graph {
-    starts: Vec<u32>,
-    links: Vec<u32>,
+    links: Lists<u32>,
     heads: Vec<u32>,
     // Kept from search to search.
     best: Vec<f64>,
@@ -20,19 +21,9 @@ const NONE: u32 = u32::MAX;
 
 impl Graph {
     pub(super) fn new(links: &[Link], nodes: usize) -> Self {
-        let mut starts = vec![0; nodes + 1];
-        for link in links {
-            starts[link.from as usize + 1] += 1;
-        }
-        for node in 0..nodes {
-            starts[node + 1] += starts[node];
-        }
-        let mut order: Vec<u32> = (0..links.len() as u32).collect();
-        order.sort_by_key(|link| links[*link as usize].from);
         let heads = links.iter().map(|link| link.to).collect();
         Self {
-            starts,
-            links: order,
+            links: Lists::of(nodes, links.iter().map(|link| link.from as usize).zip(0..)),
             heads,
             best: vec![f64::INFINITY; nodes],
             via: vec![NONE; nodes],
@@ -52,8 +43,7 @@ impl Graph {
             if time > self.best[node as usize] {
                 continue;
             }
-            let range = self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize;
-            for link in &self.links[range] {
+            for link in &self.links[node as usize] {
                 let head = self.heads[*link as usize] as usize;
                 let there = time + times[*link as usize];
                 // Times are not negative, so their bits are in their order.

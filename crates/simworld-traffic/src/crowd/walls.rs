@@ -1,6 +1,7 @@
 //! Straight walls, found by cell.
 
 use simworld_core::geometry::Point2;
+use simworld_core::lists::Lists;
 
 use super::{Surroundings, Wall};
 
@@ -28,9 +29,8 @@ pub struct Walls {
     width: f64,
     columns: usize,
     rows: usize,
-    /// The walls near cell i are `pieces[near[k]]` for k in `starts[i]..starts[i + 1]`.
-    starts: Vec<u32>,
-    near: Vec<u32>,
+    /// The numbers of the walls near each cell.
+    near: Lists<u32>,
 }
 
 impl Walls {
@@ -48,7 +48,7 @@ impl Walls {
         let width = CELL.max((span.x * span.y / most).sqrt()).max(span.max() / most);
         let count = |span: f64| (span / width).floor() as usize + 1;
         let (columns, rows) = (count(span.x), count(span.y));
-        let mut walls = Self { pieces, low, width, columns, rows, starts: Vec::new(), near: Vec::new() };
+        let mut walls = Self { pieces, low, width, columns, rows, near: Lists::default() };
         walls.sort();
         walls
     }
@@ -71,15 +71,7 @@ impl Walls {
                 }
             }
         }
-        cells.sort_unstable();
-        self.starts = vec![0; self.columns * self.rows + 1];
-        for (cell, _) in &cells {
-            self.starts[cell + 1] += 1;
-        }
-        for index in 1..self.starts.len() {
-            self.starts[index] += self.starts[index - 1];
-        }
-        self.near = cells.into_iter().map(|(_, index)| index).collect();
+        self.near = Lists::of(self.columns * self.rows, cells.into_iter());
     }
 
     /// The row or column at a distance from the first.
@@ -96,9 +88,7 @@ impl Surroundings for Walls {
         if !inside {
             return;
         }
-        let cell = row as usize * self.columns + column as usize;
-        let walls = &self.near[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        for index in walls {
+        for index in &self.near[row as usize * self.columns + column as usize] {
             let offset = nearest(self.pieces[*index as usize], at) - at;
             let distance = offset.norm();
             if distance > 0.0 && distance <= REACH {

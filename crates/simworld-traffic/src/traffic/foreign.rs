@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use simworld_core::geometry::{Point2, Vector2, direction};
+use simworld_core::lists::Lists;
 use simworld_core::net::polyline;
 
 use crate::vehicle::{Obstacle, Tracks};
@@ -63,28 +64,17 @@ struct Cells {
     tiles: BTreeMap<(i64, i64), Tile>,
 }
 
-/// A square of cells, row by row: where what is in each begins, and where that in the last one ends.
-#[derive(Clone, Debug)]
-struct Tile {
-    starts: Vec<u32>,
-    items: Vec<u32>,
-}
+/// What is in each cell of a square, row by row.
+type Tile = Lists<u32>;
 
 impl Cells {
     /// Of pairs of a cell and what is in it; what is in a cell keeps its order.
     fn new(mut pairs: Vec<((i64, i64), u32)>) -> Self {
         let tile = |cell: (i64, i64)| (cell.0.div_euclid(TILE), cell.1.div_euclid(TILE));
         let place = |cell: (i64, i64)| (cell.1.rem_euclid(TILE) * TILE + cell.0.rem_euclid(TILE)) as usize;
-        pairs.sort_by_key(|pair| (tile(pair.0), place(pair.0)));
+        pairs.sort_by_key(|pair| tile(pair.0));
         let make = |within: &[((i64, i64), u32)]| {
-            let mut starts = vec![0; (TILE * TILE) as usize + 1];
-            for pair in within {
-                starts[place(pair.0) + 1] += 1;
-            }
-            for index in 1..starts.len() {
-                starts[index] += starts[index - 1];
-            }
-            Tile { starts, items: within.iter().map(|pair| pair.1).collect() }
+            Tile::of((TILE * TILE) as usize, within.iter().map(|(cell, item)| (place(*cell), *item)))
         };
         let tiles = pairs.chunk_by(|a, b| tile(a.0) == tile(b.0));
         Self { tiles: tiles.map(|within| (tile(within[0].0), make(within))).collect() }
@@ -97,8 +87,7 @@ impl Cells {
 
     fn within(&self, (column, row): (i64, i64)) -> &[u32] {
         let Some(tile) = self.tiles.get(&(column.div_euclid(TILE), row.div_euclid(TILE))) else { return &[] };
-        let place = (row.rem_euclid(TILE) * TILE + column.rem_euclid(TILE)) as usize;
-        &tile.items[tile.starts[place] as usize..tile.starts[place + 1] as usize]
+        &tile[(row.rem_euclid(TILE) * TILE + column.rem_euclid(TILE)) as usize]
     }
 }
 

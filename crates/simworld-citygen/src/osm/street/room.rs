@@ -3,6 +3,7 @@
 //! Tags rarely say how wide a sidewalk is. Walls do: what is taken from the kind of street is cut to what there is.
 
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::lists::Lists;
 use simworld_core::net::polyline;
 
 use super::profile::Profile;
@@ -34,9 +35,8 @@ const SIDE: i64 = 512;
 
 /// Walls by the cells that they pass.
 struct Walls {
-    /// Where the walls of each cell begin.
-    starts: Vec<u32>,
-    pieces: Vec<[Point2; 2]>,
+    /// Those of each cell.
+    cells: Lists<[Point2; 2]>,
     /// Where there are any.
     mask: Mask,
 }
@@ -56,7 +56,7 @@ fn cells(low: Point2, high: Point2) -> impl Iterator<Item = usize> {
 impl Walls {
     fn of(buildings: &[Outline]) -> Self {
         let mut mask = Mask::new();
-        let mut filed: Vec<(u32, [Point2; 2])> = Vec::new();
+        let mut filed: Vec<(usize, [Point2; 2])> = Vec::new();
         for building in buildings {
             let next = building.corners.iter().cycle().skip(1);
             for (a, b) in building.corners.iter().zip(next) {
@@ -67,24 +67,11 @@ impl Walls {
                     let piece = [at(index), at(index + 1)];
                     mask.mark(&piece, 0.0);
                     let passed = cells(piece[0].inf(&piece[1]), piece[0].sup(&piece[1]));
-                    filed.extend(passed.map(|cell| (cell as u32, piece)));
+                    filed.extend(passed.map(|cell| (cell, piece)));
                 }
             }
         }
-        let mut starts = vec![0; (SIDE * SIDE) as usize + 1];
-        for (cell, _) in &filed {
-            starts[*cell as usize + 1] += 1;
-        }
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let (mut next, mut pieces) = (starts.clone(), vec![[Point2::origin(); 2]; filed.len()]);
-        for (cell, wall) in filed {
-            let place = &mut next[cell as usize];
-            pieces[*place as usize] = wall;
-            *place += 1;
-        }
-        Self { starts, pieces, mask }
+        Self { cells: Lists::of((SIDE * SIDE) as usize, filed.into_iter()), mask }
     }
 
     /// How far one sees from a point in a direction, m; at most [`REACH`].
@@ -93,7 +80,7 @@ impl Walls {
         let (low, high) = (from.inf(&to), from.sup(&to));
         let mut share: f64 = 1.0;
         for cell in cells(low, high) {
-            for [a, b] in &self.pieces[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+            for [a, b] in &self.cells[cell] {
                 let is_beside = a.x.max(b.x) < low.x
                     || a.x.min(b.x) > high.x
                     || a.y.max(b.y) < low.y

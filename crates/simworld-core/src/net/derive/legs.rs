@@ -6,6 +6,7 @@ use std::ops::Index;
 use super::workers::{self, PART, Workers};
 use super::{NetworkConfig, StreetPlan, hammerhead, kerbs};
 use crate::geometry::{Point2, Vector2, direction, heading};
+use crate::lists::Lists;
 use crate::net::{CrossSection, RoadClass, polyline};
 
 /// Gap between the stop line and the crossing, m.
@@ -133,7 +134,7 @@ pub(super) struct Legs {
     /// Those of the nodes of each part of the work.
     parts: Vec<Vec<Leg>>,
     /// Where those of each node begin among all of them, and where the last ones end.
-    starts: Vec<usize>,
+    starts: Vec<u32>,
 }
 
 impl Legs {
@@ -158,46 +159,33 @@ impl Index<usize> for Legs {
 
     /// Those of a node.
     fn index(&self, node: usize) -> &[Leg] {
-        let before = self.starts[node - node % PART];
-        &self.parts[node / PART][self.starts[node] - before..self.starts[node + 1] - before]
+        let [before, from, to] = [node - node % PART, node, node + 1].map(|node| self.starts[node] as usize);
+        &self.parts[node / PART][from - before..to - before]
     }
 }
 
 /// The end of a street: which street it is, and whether it begins there.
 type End = (usize, bool);
 
-/// The ends of all streets by their nodes, and where those of each node begin.
-fn ends_by_node(plan: &StreetPlan) -> (Vec<End>, Vec<usize>) {
-    let mut starts = vec![0; plan.nodes.len() + 1];
-    for street in &plan.streets {
-        starts[street.from + 1] += 1;
-        starts[street.to + 1] += 1;
-    }
-    for node in 1..starts.len() {
-        starts[node] += starts[node - 1];
-    }
-    let (mut ends, mut next) = (vec![(0, false); 2 * plan.streets.len()], starts.clone());
-    for (index, street) in plan.streets.iter().enumerate() {
-        for (node, at_start) in [(street.from, true), (street.to, false)] {
-            ends[next[node]] = (index, at_start);
-            next[node] += 1;
-        }
-    }
-    (ends, starts)
+/// The ends of all streets by their nodes.
+fn ends_by_node(plan: &StreetPlan) -> Lists<End> {
+    let ends = plan.streets.iter().enumerate();
+    let ends = ends.flat_map(|(index, street)| [(street.from, (index, true)), (street.to, (index, false))]);
+    Lists::of(plan.nodes.len(), ends)
 }
 
 /// The legs of a plan.
 pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig, workers: &dyn Workers) -> Legs {
     let widths: Vec<[(f64, f64); 2]> = plan.sections.iter().map(widths).collect();
     let lengths = workers::each(workers, plan.streets.len(), |street| plan.length_of(&plan.streets[street]));
-    let (ends, starts) = ends_by_node(plan);
+    let ends = ends_by_node(plan);
     let nodes = plan.nodes.len();
     let parts = workers::collect(workers, nodes.div_ceil(PART), |part| {
-        let nodes = &starts[part * PART..=nodes.min((part + 1) * PART)];
-        let mut legs = Vec::with_capacity(nodes[nodes.len() - 1] - nodes[0]);
-        for node in nodes.windows(2) {
+        let (from, to) = (part * PART, nodes.min((part + 1) * PART));
+        let mut legs = Vec::with_capacity(ends.run(from..=to - 1).len());
+        for node in from..to {
             let first = legs.len();
-            legs.extend(ends[node[0]..node[1]].iter().map(|end| Leg::of(plan, *end, &widths)));
+            legs.extend(ends[node].iter().map(|end| Leg::of(plan, *end, &widths)));
             let legs = &mut legs[first..];
             legs.sort_unstable_by(|a, b| a.heading.total_cmp(&b.heading).then(a.street.cmp(&b.street)));
             set_reaches(legs, config);
@@ -205,7 +193,7 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig, workers: &dyn W
         }
         legs
     });
-    let mut legs = Legs { parts, starts };
+    let mut legs = Legs { parts, starts: ends.into_starts() };
     fit_into_streets(&mut legs, &lengths, workers);
     legs
 }
