@@ -236,8 +236,8 @@ pub(crate) fn raise(
 ) -> Vec<Building> {
     let streams = seed.stream("citygen/buildings");
     let weights = Weights::new();
-    let mut buildings = Vec::with_capacity(land.lots.len() * 5 / 4);
-    taken.reserve(land.lots.len() * 5 / 4);
+    let mut buildings = Vec::with_capacity(land.lots.len() * 4 / 3);
+    taken.reserve(land.lots.len() * 4 / 3);
     // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
     let plan = |batch: &[Lot]| -> Vec<Plans> {
         let planned = batch

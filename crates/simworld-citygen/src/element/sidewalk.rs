@@ -222,8 +222,8 @@ impl Setter {
 
     /// The use of the land behind the sidewalk.
     fn zone(&self, zoning: &mut RememberedZoning<'_>) -> Zone {
-        let behind = self.walk.at(self.walk.length * 0.5, 15.0);
-        behind.map_or(Zone::default(), |(point, _)| zoning.zone(point))
+        let behind = self.walk.place(self.walk.length * 0.5, 15.0);
+        behind.map_or(Zone::default(), |point| zoning.zone(point))
     }
 
     /// Sets elements of one kind along the kerb at even distances.

@@ -15,6 +15,9 @@ use super::lattice::{Axis, Junction};
 use super::{TileId, TileSource};
 use crate::growth::{self, Within};
 
+/// Streets of a superblock with its main streets and a share of the margin: most have fewer.
+const STREETS: usize = 96;
+
 /// The streets of a tile.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
@@ -84,18 +87,19 @@ impl Drawer {
     }
 
     /// All streets within a superblock.
-    fn within(&mut self, within: &Within, walls: usize) {
-        let mut numbers = Vec::with_capacity(within.nodes.len());
-        for (index, at) in within.nodes.iter().enumerate() {
+    fn within(&mut self, within: Within, walls: usize) {
+        let Within { nodes, streets } = within;
+        let mut numbers = Vec::with_capacity(nodes.len());
+        for (index, at) in nodes.iter().enumerate() {
             numbers.push(if index < walls { None } else { Some(self.plan.nodes.len()) });
             if index >= walls {
                 self.plan.nodes.push(*at);
             }
         }
-        for street in &within.streets {
-            let [from, to] = [street.from, street.to]
-                .map(|end| numbers[end].unwrap_or_else(|| self.node(within.nodes[end])));
-            self.push(Street { from, to, ..street.clone() }, [true; 2]);
+        for street in streets {
+            let [from, to] =
+                [street.from, street.to].map(|end| numbers[end].unwrap_or_else(|| self.node(nodes[end])));
+            self.push(Street { from, to, ..street }, [true; 2]);
         }
     }
 
@@ -134,6 +138,7 @@ impl Drawer {
         let count = i64::from(source.config().lattice.superblocks);
         let (west, south) = (i64::from(id.x) * count, i64::from(id.y) * count);
         let (east, north) = (west + count, south + count);
+        self.plan.streets.reserve(STREETS * (count * count) as usize);
         for row in south..north {
             for column in west..east {
                 self.main_street(&lattice.street(column, row, Axis::East), [true, row > south]);
@@ -143,7 +148,7 @@ impl Drawer {
         for row in south..north {
             for column in west..east {
                 let (within, walls) = source.superblock(column, row);
-                self.within(&within, walls);
+                self.within(within, walls);
             }
         }
         let own = self.plan.streets.len();
