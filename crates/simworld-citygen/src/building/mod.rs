@@ -246,7 +246,7 @@ pub(crate) fn raise(
         planned.collect()
     };
     threads::in_order(land.lots.chunks(BATCH), plan, |plans| {
-        for Plans { buildings: mut planned, grounds } in plans {
+        for Plans { buildings: mut planned, grounds } in plans.into_iter().flatten() {
             let mut grounds = grounds.iter();
             // Lots do not overlap, so this refuses only what would stand on a road: nearly all go over as they stand.
             planned.retain(|_| grounds.next().is_some_and(|ground| taken.take(ground)));

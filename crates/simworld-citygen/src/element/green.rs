@@ -21,20 +21,18 @@ const MOST_POINTS: f64 = 20_000.0;
 /// Greens that one thread thinks of at once.
 const CHUNK: usize = 16;
 
-/// Plants trees on every park and courtyard.
+/// Plants trees on every park and courtyard; before them go elements of elsewhere, which are put in meanwhile.
 pub(super) fn plant(
     setting: &Setting<'_>,
     config: &ElementConfig,
     streams: Stream,
     taken: &mut Occupancy,
     elements: &mut Vec<Element>,
+    mut before: Vec<Vec<Element>>,
 ) {
-    if config.green_trees <= 0.0 {
-        return;
-    }
     let spacing = 1.0 / config.green_trees.sqrt();
-    let greens: Vec<&Green> =
-        setting.land.greens.iter().filter(|green| green.kind != GreenKind::Leftover).collect();
+    let is_planted = |green: &&Green| green.kind != GreenKind::Leftover && config.green_trees > 0.0;
+    let greens: Vec<&Green> = setting.land.greens.iter().filter(is_planted).collect();
     // Trees are functions of their greens, so they are thought of on all threads; who gets room is decided in order.
     let think = |batch: &[&Green]| -> Vec<Vec<(Element, [Point2; 4])>> {
         let trees = batch.par_chunks(CHUNK).map(|greens| {
@@ -51,7 +49,9 @@ pub(super) fn plant(
         trees.collect()
     };
     threads::in_order(greens.chunks(64 * CHUNK), think, |trees| {
-        for (tree, ground) in trees.into_iter().flatten() {
+        // Each part goes as it is taken over: this is when a city takes the most memory.
+        before.drain(..).for_each(|part| elements.extend(part));
+        for (tree, ground) in trees.into_iter().flatten().flatten() {
             if taken.take(&ground) {
                 elements.push(tree);
             }

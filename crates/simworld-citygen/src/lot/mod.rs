@@ -101,16 +101,8 @@ impl Land {
         config: &LotConfig,
         seed: Seed,
     ) -> (Self, Occupancy) {
-        let streams = seed.stream("citygen/lots");
-        let (taken, (blocks, closed)) = rayon::join(
-            || Occupancy::of_roads(network),
-            || {
-                let blocks = Block::of_network(network);
-                let closed = Self::of_closed(&blocks, zoning, config, streams);
-                (blocks, closed)
-            },
-        );
-        (closed.with_open(blocks, zoning, config, streams, &taken), taken)
+        let (taken, blocks) = rayon::join(|| Occupancy::of_roads(network), || Block::of_network(network));
+        (Self::of_blocks(blocks, zoning, config, seed, &taken), taken)
     }
 
     /// Divides some blocks of a network. `taken` is what no lot of an open block may touch: the land of the roads.
@@ -122,15 +114,25 @@ impl Land {
         taken: &Occupancy,
     ) -> Self {
         let streams = seed.stream("citygen/lots");
-        let closed = Self::of_closed(&blocks, zoning, config, streams);
-        closed.with_open(blocks, zoning, config, streams, taken)
+        // The lots of open blocks are fitted one after another, which takes long: meanwhile the closed ones are divided.
+        let (mut parts, (open, fronts)) = rayon::join(
+            || Self::of_closed(&blocks, zoning, config, streams),
+            || Self::of_open(&blocks, zoning, config, streams, taken),
+        );
+        if !open.corners.is_empty() {
+            parts.push(open);
+        }
+        let mut land = Self::joined(parts);
+        land.frontage = fronts.into_iter().fold(land.frontage, |sum, front| sum + front);
+        land.blocks = blocks;
+        land
     }
 
-    /// Divides the closed ones of some blocks.
-    fn of_closed(blocks: &[Block], zoning: &Zoning, config: &LotConfig, streams: Stream) -> Self {
+    /// Divides the closed ones of some blocks, those of each part by themselves.
+    fn of_closed(blocks: &[Block], zoning: &Zoning, config: &LotConfig, streams: Stream) -> Vec<Self> {
         let numbered: Vec<(u32, &Block)> = (0..).zip(blocks).collect();
         // Closed blocks are functions of themselves, so they are divided on all threads.
-        let parts: Vec<Self> = numbered
+        numbered
             .par_chunks(CHUNK)
             .map(|chunk| {
                 let mut part = Self::for_blocks(chunk.len());
@@ -140,8 +142,7 @@ impl Land {
                 }
                 part
             })
-            .collect();
-        Self::joined(parts)
+            .collect()
     }
 
     /// With room for what that many blocks mostly are divided into.
@@ -156,22 +157,20 @@ impl Land {
         }
     }
 
-    /// Lines the open ones of the blocks with lots, and keeps all blocks.
-    fn with_open(
-        mut self,
-        blocks: Vec<Block>,
+    /// Lines the open ones of some blocks with lots; and says how long each front is, m.
+    fn of_open(
+        blocks: &[Block],
         zoning: &Zoning,
         config: &LotConfig,
         streams: Stream,
         taken: &Occupancy,
-    ) -> Self {
-        let mut ribbons = Occupancy::default();
-        for (index, block) in (0..).zip(&blocks).filter(|(_, block)| block.area.is_none()) {
-            let mut divider = Divider::new(&mut self, index, zoning, config, stream_of(block, streams));
-            ribbon::line(&mut divider, block, streams, taken, &mut ribbons);
+    ) -> (Self, Vec<f64>) {
+        let (mut land, mut ribbons, mut fronts) = (Self::default(), Occupancy::default(), Vec::new());
+        for (index, block) in (0..).zip(blocks).filter(|(_, block)| block.area.is_none()) {
+            let mut divider = Divider::new(&mut land, index, zoning, config, stream_of(block, streams));
+            fronts.append(&mut ribbon::line(&mut divider, block, streams, taken, &mut ribbons));
         }
-        self.blocks = blocks;
-        self
+        (land, fronts)
     }
 
     /// The greens and their blocks alone: all that is asked for once buildings stand, and a fraction of the memory.
