@@ -94,7 +94,7 @@ fn depth(
 
 /// Cuts a row across into lots.
 pub(super) fn slice(divider: &mut Divider<'_>, row: &Ring, street: &Street) {
-    stations(divider, row, street, |divider, lot| divider.lot(lot));
+    stations(divider, row, street, Divider::lot);
 }
 
 /// Hands out the lots of a row, one after the other.
