@@ -15,19 +15,19 @@ impl Workers for AllThreads {
 }
 
 /// Makes something of each batch on all threads, and takes what was made in the order of the batches, while the next is
-/// being made: `take` is called as if there were one thread.
+/// being made: `take` is called as if there were one thread. It is called with nothing first, while the first batch is being
+/// made.
 pub(crate) fn in_order<T: Sync, M: Send>(
     batches: std::slice::Chunks<'_, T>,
     make: impl Fn(&[T]) -> M + Sync,
-    mut take: impl FnMut(M) + Send,
+    mut take: impl FnMut(Option<M>) + Send,
 ) {
     let mut made = None;
     for batch in batches {
         let before = made.take();
-        let take = &mut take;
-        made = Some(rayon::join(|| before.map(take), || make(batch)).1);
+        made = Some(rayon::join(|| take(before), || make(batch)).1);
     }
-    made.map(take);
+    take(made);
 }
 
 #[cfg(test)]
@@ -44,7 +44,7 @@ mod tests {
                 in_order(
                     items.chunks(17),
                     |batch| batch.par_iter().map(|item| item * 2).collect::<Vec<_>>(),
-                    |made| taken.extend(made),
+                    |made| taken.extend(made.into_iter().flatten()),
                 );
             });
             assert!(taken.iter().zip(&items).all(|(taken, item)| *taken == item * 2), "{threads}");

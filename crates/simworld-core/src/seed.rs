@@ -130,7 +130,17 @@ impl StreamRng {
 
     /// An index with probability proportional to its weight; `None` if no weight is positive.
     pub fn weighted(&mut self, weights: &[f64]) -> Option<usize> {
-        let total: f64 = weights.iter().filter(|w| **w > 0.0).sum();
+        self.weighted_of(weights, Self::total(weights))
+    }
+
+    /// The sum of some weights, for [`weighted_of`](Self::weighted_of).
+    pub fn total(weights: &[f64]) -> f64 {
+        weights.iter().filter(|w| **w > 0.0).sum()
+    }
+
+    /// [`weighted`](Self::weighted) for one who draws often by the same weights: their sum is not reckoned each time.
+    #[inline]
+    pub fn weighted_of(&mut self, weights: &[f64], total: f64) -> Option<usize> {
         if total.is_nan() || total <= 0.0 {
             return None;
         }

@@ -50,7 +50,7 @@ fn offset(boundary: &Boundary) -> Option<Ring> {
     let mut offsets = Vec::with_capacity(count);
     for index in 0..count {
         let Piece { border, offset } = boundary.pieces[index];
-        let (start, end) = (boundary.points[index], boundary.points[(index + 1) % count]);
+        let (start, end) = (boundary.points[index], boundary.points[after(index, count)]);
         if (end - start).norm() > SHORTEST {
             lines.push(Line { start, end, border }.moved(offset));
             offsets.push(offset);
@@ -89,13 +89,13 @@ fn label_corners(lines: &mut [Line]) {
         u.dot(&v) > 0.0 && u.perp(&v).abs() < 2.0 * STRAIGHT * u.norm() * v.norm()
     };
     for index in 0..count {
-        let (before, here) = (lines[(index + count - 1) % count], lines[index]);
+        let (before, here) = (lines[before(index, count)], lines[index]);
         if here.border == Border::CORNER && before.border.is_street() && goes_on(&before, &here) {
             lines[index].border = before.border;
         }
     }
     for index in (0..count).rev() {
-        let (here, after) = (lines[index], lines[(index + 1) % count]);
+        let (here, after) = (lines[index], lines[after(index, count)]);
         if here.border == Border::CORNER && after.border.is_street() && goes_on(&here, &after) {
             lines[index].border = after.border;
         }
@@ -135,17 +135,17 @@ fn join(lines: &[Line], reach: impl Fn(usize) -> Reach) -> Joined {
     let mut ring = Ring::with_capacity(count);
     let mut ends = vec![(Point2::origin(), Point2::origin()); count];
     for index in 0..count {
-        let (line, next) = (&lines[index], &lines[(index + 1) % count]);
-        let (out, into) = corner(line, next, reach(index));
+        let next = after(index, count);
+        let (out, into) = corner(&lines[index], &lines[next], reach(index));
         ends[index].1 = out;
-        ends[(index + 1) % count].0 = into;
+        ends[next].0 = into;
     }
     let mut kept = Vec::with_capacity(count);
     for (index, (start, end)) in ends.iter().enumerate() {
         let along = lines[index].along();
         kept.push((end - start).dot(&along) > SHORTEST * along.norm());
         ring.push(*start, lines[index].border);
-        if (ends[(index + 1) % count].0 - end).norm() > SHORTEST {
+        if (ends[after(index, count)].0 - end).norm() > SHORTEST {
             ring.push(*end, Border::CORNER);
         }
     }
@@ -183,7 +183,7 @@ fn straighten(ring: &Ring) -> Ring {
     let lines: Vec<Line> = runs
         .iter()
         .map(|(first, length)| {
-            let at = |step: usize| ring.corners[(first + step) % count];
+            let at = |step: usize| ring.corners[onwards(*first, step, count)];
             let line = Line { start: at(0), end: at(*length), border: ring.borders[*first] };
             let along = line.along() / line.along().norm();
             let deepest = (1..*length).map(|step| along.perp(&(at(step) - line.start))).fold(0.0, f64::max);
@@ -199,13 +199,13 @@ fn straighten(ring: &Ring) -> Ring {
 fn runs(ring: &Ring) -> Vec<(usize, usize)> {
     let count = ring.len();
     let starts_run = |index: usize| {
-        let before = (index + count - 1) % count;
+        let before = before(index, count);
         ring.borders[index] != ring.borders[before] || !ring.borders[index].is_street() || turns(ring, before)
     };
     let Some(start) = (0..count).find(|index| starts_run(*index)) else { return Vec::new() };
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for step in 0..count {
-        let index = (start + step) % count;
+        let index = onwards(start, step, count);
         match runs.last_mut() {
             Some((first, length)) if !starts_run(index) && stays_straight(ring, *first, *length + 1) => {
                 *length += 1;
@@ -218,12 +218,26 @@ fn runs(ring: &Ring) -> Vec<(usize, usize)> {
 
 /// Whether the street turns sharply after an edge: by more than 17°.
 fn turns(ring: &Ring, index: usize) -> bool {
-    let (u, v) = (ring.edge(index), ring.edge((index + 1) % ring.len()));
+    let (u, v) = (ring.edge(index), ring.edge(after(index, ring.len())));
     u.perp(&v).abs() > 0.3 * u.norm() * v.norm() || u.dot(&v) <= 0.0
 }
 
+/// So many steps on round a ring, no more than once round: no division, which takes longer than all else that is asked.
+const fn onwards(index: usize, steps: usize, count: usize) -> usize {
+    let on = index + steps;
+    if on < count { on } else { on - count }
+}
+
+const fn after(index: usize, count: usize) -> usize {
+    onwards(index, 1, count)
+}
+
+const fn before(index: usize, count: usize) -> usize {
+    if index == 0 { count - 1 } else { index - 1 }
+}
+
 fn stays_straight(ring: &Ring, first: usize, length: usize) -> bool {
-    let at = |step: usize| ring.corners[(first + step) % ring.len()];
+    let at = |step: usize| ring.corners[onwards(first, step, ring.len())];
     let along = at(length) - at(0);
     let norm = along.norm();
     norm > 1e-6 && (1..length).all(|step| (along.perp(&(at(step) - at(0))) / norm).abs() <= TOLERANCE)

@@ -236,8 +236,8 @@ pub(crate) fn raise(
 ) -> Vec<Building> {
     let streams = seed.stream("citygen/buildings");
     let weights = Weights::new();
-    let mut buildings = Vec::with_capacity(land.lots.len() * 5 / 4);
-    taken.reserve(land.lots.len() * 5 / 4);
+    let mut buildings = Vec::with_capacity(land.lots.len() * 4 / 3);
+    taken.reserve(land.lots.len() * 4 / 3);
     // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
     let plan = |batch: &[Lot]| -> Vec<Plans> {
         let planned = batch
@@ -246,7 +246,7 @@ pub(crate) fn raise(
         planned.collect()
     };
     threads::in_order(land.lots.chunks(BATCH), plan, |plans| {
-        for Plans { buildings: mut planned, grounds } in plans {
+        for Plans { buildings: mut planned, grounds } in plans.into_iter().flatten() {
             let mut grounds = grounds.iter();
             // Lots do not overlap, so this refuses only what would stand on a road: nearly all go over as they stand.
             planned.retain(|_| grounds.next().is_some_and(|ground| taken.take(ground)));

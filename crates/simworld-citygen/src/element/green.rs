@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use simworld_core::geometry::{Point2, Vector2, bounds};
 use simworld_core::scene::EntityKind;
 use simworld_core::seed::Stream;
+use smallvec::SmallVec;
 
 use super::kinds::shape_of;
 use super::{Element, Setting};
@@ -20,34 +21,37 @@ const MOST_POINTS: f64 = 20_000.0;
 /// Greens that one thread thinks of at once.
 const CHUNK: usize = 16;
 
-/// Plants trees on every park and courtyard.
+/// Plants trees on every park and courtyard; before them go elements of elsewhere, which are put in meanwhile.
 pub(super) fn plant(
     setting: &Setting<'_>,
     config: &ElementConfig,
     streams: Stream,
     taken: &mut Occupancy,
     elements: &mut Vec<Element>,
+    mut before: Vec<Vec<Element>>,
 ) {
-    if config.green_trees <= 0.0 {
-        return;
-    }
     let spacing = 1.0 / config.green_trees.sqrt();
-    let greens: Vec<&Green> =
-        setting.land.greens.iter().filter(|green| green.kind != GreenKind::Leftover).collect();
+    let is_planted = |green: &&Green| green.kind != GreenKind::Leftover && config.green_trees > 0.0;
+    let greens: Vec<&Green> = setting.land.greens.iter().filter(is_planted).collect();
     // Trees are functions of their greens, so they are thought of on all threads; who gets room is decided in order.
     let think = |batch: &[&Green]| -> Vec<Vec<(Element, [Point2; 4])>> {
         let trees = batch.par_chunks(CHUNK).map(|greens| {
-            let outlines = greens.iter().map(|green| {
+            let area: f64 = greens.iter().map(|green| green.area).sum();
+            let mut trees = Vec::with_capacity((area * config.green_trees).min(MOST_POINTS) as usize);
+            for green in greens {
                 let borders = &setting.land.blocks[green.block as usize].borders;
                 let along = borders.iter().copied().find(|border| border.is_street());
-                (setting.land.green_outline(green), along.unwrap_or(Border::LAND))
-            });
-            outlines.flat_map(|(outline, along)| trees_on(outline, along, spacing, streams)).collect()
+                let outline = setting.land.green_outline(green);
+                think_of(outline, along.unwrap_or(Border::LAND), spacing, streams, &mut trees);
+            }
+            trees
         });
         trees.collect()
     };
     threads::in_order(greens.chunks(64 * CHUNK), think, |trees| {
-        for (tree, ground) in trees.into_iter().flatten() {
+        // Each part goes as it is taken over: this is when a city takes the most memory.
+        before.drain(..).for_each(|part| elements.extend(part));
+        for (tree, ground) in trees.into_iter().flatten().flatten() {
             if taken.take(&ground) {
                 elements.push(tree);
             }
@@ -55,39 +59,53 @@ pub(super) fn plant(
     });
 }
 
-/// The trees that would stand on a green, with the ground that each takes.
-fn trees_on(outline: &[Point2], along: Border, spacing: f64, streams: Stream) -> Vec<(Element, [Point2; 4])> {
-    let Some((low, high)) = bounds(outline) else { return Vec::new() };
+/// Thinks of the trees that would stand on a green, with the ground that each takes.
+fn think_of(
+    outline: &[Point2],
+    along: Border,
+    spacing: f64,
+    streams: Stream,
+    trees: &mut Vec<(Element, [Point2; 4])>,
+) {
+    let Some((low, high)) = bounds(outline) else { return };
     let size: Vector2 = high - low;
     let (columns, rows) = ((size.x / spacing).ceil(), (size.y / spacing).ceil());
-    let mut trees = Vec::new();
     if columns * rows > MOST_POINTS {
-        return trees;
+        return;
     }
     let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    let edges = edges(outline);
     let mut rng = streams.indexed(key(low.x)).indexed(key(low.y)).rng();
-    for index in 0..(columns * rows) as u64 {
-        let (column, row) = (index % columns as u64, index / columns as u64);
-        let jitter = Vector2::new(rng.unit(), rng.unit());
-        let position = low + (Vector2::new(column as f64, row as f64) + jitter) * spacing;
-        if !is_inside(outline, position) {
-            continue;
+    for row in 0..rows as u32 {
+        for column in 0..columns as u32 {
+            let jitter = Vector2::new(rng.unit(), rng.unit());
+            let position = low + (Vector2::new(f64::from(column), f64::from(row)) + jitter) * spacing;
+            if !is_inside(&edges, position) {
+                continue;
+            }
+            let shape = shape_of(EntityKind::Tree, &mut rng);
+            let tree = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
+            let ground = tree.obb().footprint();
+            trees.push((tree, ground));
         }
-        let shape = shape_of(EntityKind::Tree, &mut rng);
-        let tree = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
-        let ground = tree.obb().footprint();
-        trees.push((tree, ground));
     }
-    trees
+}
+
+/// An edge of a green: its ends, the way from the one to the other, and the square of its length, m².
+type Edge = ([Point2; 2], Vector2, f64);
+
+/// The edges of an outline: measured once, for each point of the lattice asks all of them.
+fn edges(outline: &[Point2]) -> SmallVec<[Edge; 8]> {
+    let next = outline.iter().skip(1).chain(outline.first());
+    outline.iter().zip(next).map(|(a, b)| ([*a, *b], b - a, (b - a).norm_squared())).collect()
 }
 
 /// Whether a point lies within an outline, clear of its edges.
-fn is_inside(outline: &[Point2], point: Point2) -> bool {
+fn is_inside(edges: &[Edge], point: Point2) -> bool {
     let mut inside = false;
-    for index in 0..outline.len() {
-        let (a, b) = (outline[index], outline[(index + 1) % outline.len()]);
-        let (edge, to) = (b - a, point - a);
-        let (along, squared, aside) = (to.dot(&edge), edge.norm_squared(), edge.perp(&to));
+    for ([a, b], edge, squared) in edges {
+        let (to, squared) = (point - a, *squared);
+        let (along, aside) = (to.dot(edge), edge.perp(&to));
         let is_near = if along <= 0.0 {
             to.norm_squared() < EDGE * EDGE
         } else if along >= squared {

@@ -125,11 +125,7 @@ pub fn furnish(
         || sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements),
         || parking::park(setting, config, streams.named("parking")),
     );
-    // Each part goes as it is taken over: this is when a city takes the most memory.
-    for cars in parked {
-        elements.extend(cars);
-    }
-    green::plant(setting, config, streams.named("greens"), taken, &mut elements);
+    green::plant(setting, config, streams.named("greens"), taken, &mut elements, parked);
     decks::clear_below(setting.network, &mut elements);
     elements
 }

@@ -93,7 +93,7 @@ pub(super) fn line(
         made.collect()
     };
     threads::in_order(sidewalks.chunks(BATCH), wish, |made| {
-        for wishes in made {
+        for wishes in made.into_iter().flatten() {
             grant(wishes, taken, elements);
         }
     });
@@ -127,7 +127,8 @@ fn stream_of(sidewalk: &Sidewalk, streams: Stream) -> Stream {
 
 /// A whole number with that mean.
 pub(super) fn count(mean: f64, rng: &mut StreamRng) -> u64 {
-    (mean + rng.unit()).floor() as u64
+    // The cast cuts fractions off.
+    (mean + rng.unit()) as u64
 }
 
 /// The buildings at every sidewalk.
@@ -179,12 +180,15 @@ impl Setter {
             self.set(EntityKind::BusStop, Row::Back, CORNER_CLEARANCE + 4.0 + rng.unit() * 6.0, rng);
         }
         // What is behind the doors changes nothing but the terraces.
-        self.terraces(&mut stream.named("terraces").rng());
+        if self.doors.iter().any(|(_, place)| *place == Place::Restaurant) {
+            self.terraces(&mut stream.named("terraces").rng());
+        }
         self.line_up(EntityKind::StreetLamp, config.lamps, rng);
         self.line_up(EntityKind::Tree, config.trees * trees, rng);
         let weights = FURNITURE.map(|(_, _, weights)| weights[zone as usize]);
+        let total = StreamRng::total(&weights);
         for _ in 0..count(usable * config.furniture * furniture, rng) {
-            let (kind, row, _) = FURNITURE[rng.weighted(&weights).unwrap_or(0)];
+            let (kind, row, _) = FURNITURE[rng.weighted_of(&weights, total).unwrap_or(0)];
             self.set(kind, row, CORNER_CLEARANCE + rng.unit() * usable, rng);
         }
     }
@@ -206,8 +210,8 @@ impl Setter {
 
     /// The use of the land behind the sidewalk.
     fn zone(&self, zoning: &mut RememberedZoning<'_>) -> Zone {
-        let behind = self.walk.at(self.walk.length * 0.5, 15.0);
-        behind.map_or(Zone::default(), |(point, _)| zoning.zone(point))
+        let behind = self.walk.place(self.walk.length * 0.5, 15.0);
+        behind.map_or(Zone::default(), |point| zoning.zone(point))
     }
 
     /// Sets elements of one kind along the kerb at even distances.

@@ -21,8 +21,8 @@ struct Piece {
     along: Vector2,
     /// Away from the road.
     out: Vector2,
-    /// Towards the road, radians.
-    facing: f64,
+    /// Towards the road, radians; known once something stands there, as along few pieces of a bend.
+    facing: Option<f64>,
 }
 
 impl Walk {
@@ -39,18 +39,29 @@ impl Walk {
             }
             let along = step / length;
             let out = Vector2::new(-along.y, along.x) * sign;
-            let (start, station, facing) = (pair[0], self.length, heading(&-out));
-            self.pieces.push(Piece { start, station, length, along, out, facing });
+            let (start, station) = (pair[0], self.length);
+            self.pieces.push(Piece { start, station, length, along, out, facing: None });
             self.length += length;
         }
     }
 
-    /// The place at a station, so far away from the road beyond the middle, and the direction towards the road; `None`
-    /// without a path.
-    pub(super) fn at(&self, station: f64, offset: f64) -> Option<(Point2, f64)> {
-        let next = self.pieces.partition_point(|piece| piece.station <= station);
-        let piece = self.pieces.get(next.saturating_sub(1))?;
-        Some((piece.start + piece.along * (station - piece.station) + piece.out * offset, piece.facing))
+    /// The piece at a station; `None` without a path.
+    fn piece(&self, station: f64) -> Option<usize> {
+        let next = self.pieces.partition_point(|piece| piece.station <= station).saturating_sub(1);
+        (next < self.pieces.len()).then_some(next)
+    }
+
+    /// The place at a station, so far away from the road beyond the middle; `None` without a path.
+    pub(super) fn place(&self, station: f64, offset: f64) -> Option<Point2> {
+        self.piece(station).map(|piece| self.pieces[piece].place(station, offset))
+    }
+
+    /// The same, and the direction towards the road.
+    pub(super) fn at(&mut self, station: f64, offset: f64) -> Option<(Point2, f64)> {
+        let index = self.piece(station)?;
+        let piece = &mut self.pieces[index];
+        let facing = *piece.facing.get_or_insert_with(|| heading(&-piece.out));
+        Some((piece.place(station, offset), facing))
     }
 
     /// The station nearest to a point.
@@ -70,6 +81,13 @@ impl Walk {
     pub(super) fn bends(&self, from: f64, to: f64) -> bool {
         let piece = |station: f64| self.pieces.partition_point(|piece| piece.station <= station);
         piece(from) != piece(to)
+    }
+}
+
+impl Piece {
+    /// The place at a station of its walk, so far away from the road.
+    fn place(&self, station: f64, offset: f64) -> Point2 {
+        self.start + self.along * (station - self.station) + self.out * offset
     }
 }
 

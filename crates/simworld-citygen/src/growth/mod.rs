@@ -20,6 +20,7 @@ mod within;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use rayon::prelude::*;
 use simworld_core::geometry::{Point2, direction, heading};
 use simworld_core::net::{CrossSection, RoadClass, Street, StreetPlan};
 use simworld_core::seed::{Seed, StreamRng};
@@ -276,42 +277,68 @@ impl<'a> Growth<'a> {
     fn plan(&self, seed: Seed) -> StreetPlan {
         let (bends, curves) = (seed.stream("citygen/bends"), Curves::new());
         let (mut plan, sections) = plan_of_sections(self.config);
-        plan.streets.reserve_exact(self.standing);
-        plan.nodes.reserve(self.standing / 2);
+        let grown = self.numbered(&mut plan.nodes);
+        let street = |grown: &Grown| {
+            let Grown { index, ends, class } = *grown;
+            let mut rng = bends.indexed(u64::from(index)).rng();
+            let bent = class != RoadClass::Highway && rng.chance(self.config.bends);
+            let section = sections[class as usize];
+            let reach = plan.sections[section as usize].left_of_reference();
+            let [from, to] = ends.map(|end| end as usize);
+            let straight = (class, plan.nodes[from], plan.nodes[to]);
+            let via = if bent { self.course(&curves, straight, reach, &mut rng) } else { Vec::new() };
+            Street { via, class, section, ..Street::simple(from, to) }
+        };
+        // A street is a function of its segment, and many are much to write: all threads write them.
+        let mut streets = Vec::new();
+        grown.par_iter().with_min_len(PART).map(street).collect_into_vec(&mut streets);
+        plan.streets = streets;
+        plan
+    }
+
+    /// The segments that are streets still, in their order; numbers their nodes.
+    fn numbered(&self, nodes: &mut Vec<Point2>) -> Vec<Grown> {
+        nodes.reserve(self.standing / 2);
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
-        for index in self.in_order() {
+        let number = |index: u32| {
             let segment = self.fabric.segment(index);
             let ends = [(segment.from, segment.a), (segment.to, segment.b)].map(|(node, at)| {
                 let number = &mut numbers[node as usize];
                 if *number == u32::MAX {
-                    *number = plan.nodes.len() as u32;
-                    plan.nodes.push(at);
+                    *number = nodes.len() as u32;
+                    nodes.push(at);
                 }
-                *number as usize
+                *number
             });
-            let mut rng = bends.indexed(u64::from(index)).rng();
-            let bent = segment.class != RoadClass::Highway && rng.chance(self.config.bends);
-            let section = sections[segment.class as usize];
-            let reach = plan.sections[section as usize].left_of_reference();
-            plan.streets.push(Street {
-                via: if bent { self.course(&curves, index, reach, &mut rng) } else { Vec::new() },
-                class: segment.class,
-                section,
-                ..Street::simple(ends[0], ends[1])
-            });
-        }
-        plan
+            Grown { index, ends, class: segment.class }
+        };
+        self.in_order().into_iter().map(number).collect()
     }
 
-    /// A bent course of a segment that reaches so far to its left.
-    fn course(&self, curves: &Curves, segment: u32, reach: f64, rng: &mut StreamRng) -> Vec<Point2> {
-        let segment = self.fabric.segment(segment);
-        let (from, to) = (segment.a, segment.b);
+    /// A bent course of a street of a class from one place to another that reaches so far to its left.
+    fn course(
+        &self,
+        curves: &Curves,
+        (class, from, to): (RoadClass, Point2, Point2),
+        reach: f64,
+        rng: &mut StreamRng,
+    ) -> Vec<Point2> {
         // So that its inner sidewalk is a bend still, not a knot, and vehicles come round it.
-        let radius = bend::least_radius(segment.class).max(2.0 * reach);
+        let radius = bend::least_radius(class).max(2.0 * reach);
         bend::course(curves, from, to, self.config.bow, BOW_LIMIT * self.config.length, radius, rng)
     }
 }
+
+/// A grown segment that is to be a street, and the numbers of its nodes in the plan.
+#[derive(Clone, Copy, Debug)]
+struct Grown {
+    index: u32,
+    ends: [u32; 2],
+    class: RoadClass,
+}
+
+/// Streets that one thread writes at once, at the least.
+const PART: usize = 1024;
 
 /// A plan without streets, and its cross-sections of local streets, arterials and highways.
 pub(crate) fn plan_of_sections(config: &RoadConfig) -> (StreetPlan, [u32; 3]) {

@@ -65,7 +65,7 @@ impl<'a> Growth<'a> {
     fn within(wall: &[Gate], config: &'a RoadConfig, fields: Seed, own: Seed) -> Self {
         let (low, high) = bounds(wall.iter().map(|gate| &gate.at)).unwrap_or_default();
         let reach = (high - low).norm() * 0.5 + 2.0 * config.length;
-        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 2 * wall.len());
+        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 4 * wall.len());
         // Two streets are the wall's own; the third leads in.
         let corners = wall.iter().map(|gate| (gate.at, if gate.is_open { 3 } else { 2 }));
         fabric.wall_in(corners, RoadClass::Arterial);
@@ -105,7 +105,11 @@ impl<'a> Growth<'a> {
         let (bends, curves) = (own.stream("citygen/bends"), Curves::new());
         let reach = plan_of_sections(self.config).0.sections[0].left_of_reference();
         let walls = self.fabric.walls();
-        let mut within = Within::default();
+        // With room for the streets of the wall, which stand beside them while dead ends are given room to turn.
+        let mut within = Within {
+            nodes: Vec::with_capacity(walls + self.standing),
+            streets: Vec::with_capacity(walls + self.standing),
+        };
         within.nodes.extend((0..walls as u32).map(|node| self.fabric.at(node)));
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
         for (node, number) in (0..).zip(numbers.iter_mut().take(walls)) {
@@ -125,7 +129,7 @@ impl<'a> Growth<'a> {
             });
             let mut rng = bends.indexed(index as u64).rng();
             let via = if rng.chance(self.config.bends) {
-                self.course(&curves, index as u32, reach, &mut rng)
+                self.course(&curves, (segment.class, segment.a, segment.b), reach, &mut rng)
             } else {
                 Vec::new()
             };

@@ -43,10 +43,6 @@ impl<'a> Divider<'a> {
         self.config.size(self.zone)
     }
 
-    pub(super) fn add_frontage(&mut self, length: f64) {
-        self.land.frontage += length;
-    }
-
     /// Divides a closed block.
     pub(super) fn divide(&mut self, ring: Ring) {
         if self.enter(ring.middle()) == Zone::Park || ring.area() < self.size().least_area {

@@ -101,16 +101,8 @@ impl Land {
         config: &LotConfig,
         seed: Seed,
     ) -> (Self, Occupancy) {
-        let streams = seed.stream("citygen/lots");
-        let (taken, (blocks, closed)) = rayon::join(
-            || Occupancy::of_roads(network),
-            || {
-                let blocks = Block::of_network(network);
-                let closed = Self::of_closed(&blocks, zoning, config, streams);
-                (blocks, closed)
-            },
-        );
-        (closed.with_open(blocks, zoning, config, streams, &taken), taken)
+        let (taken, blocks) = rayon::join(|| Occupancy::of_roads(network), || Block::of_network(network));
+        (Self::of_blocks(blocks, zoning, config, seed, &taken), taken)
     }
 
     /// Divides some blocks of a network. `taken` is what no lot of an open block may touch: the land of the roads.
@@ -122,49 +114,63 @@ impl Land {
         taken: &Occupancy,
     ) -> Self {
         let streams = seed.stream("citygen/lots");
-        let closed = Self::of_closed(&blocks, zoning, config, streams);
-        closed.with_open(blocks, zoning, config, streams, taken)
+        // The lots of open blocks are fitted one after another, which takes long: meanwhile the closed ones are divided.
+        let (mut parts, (open, fronts)) = rayon::join(
+            || Self::of_closed(&blocks, zoning, config, streams),
+            || Self::of_open(&blocks, zoning, config, streams, taken),
+        );
+        if !open.corners.is_empty() {
+            parts.push(open);
+        }
+        let mut land = Self::joined(parts);
+        land.frontage = fronts.into_iter().fold(land.frontage, |sum, front| sum + front);
+        land.blocks = blocks;
+        land
     }
 
-    /// Divides the closed ones of some blocks.
-    fn of_closed(blocks: &[Block], zoning: &Zoning, config: &LotConfig, streams: Stream) -> Self {
+    /// Divides the closed ones of some blocks, those of each part by themselves.
+    fn of_closed(blocks: &[Block], zoning: &Zoning, config: &LotConfig, streams: Stream) -> Vec<Self> {
         let numbered: Vec<(u32, &Block)> = (0..).zip(blocks).collect();
         // Closed blocks are functions of themselves, so they are divided on all threads.
-        let parts: Vec<Self> = numbered
+        numbered
             .par_chunks(CHUNK)
             .map(|chunk| {
-                let mut part = Self::default();
+                let mut part = Self::for_blocks(chunk.len());
                 for (index, block) in chunk.iter().filter(|(_, block)| block.area.is_some()) {
                     let stream = stream_of(block, streams);
                     Divider::new(&mut part, *index, zoning, config, stream).divide(block.ring());
                 }
                 part
             })
-            .collect();
-        let mut parts = parts.into_iter();
-        let mut land = parts.next().unwrap_or_default();
-        for part in parts {
-            land.append(part);
-        }
-        land
+            .collect()
     }
 
-    /// Lines the open ones of the blocks with lots, and keeps all blocks.
-    fn with_open(
-        mut self,
-        blocks: Vec<Block>,
+    /// With room for what that many blocks mostly are divided into.
+    fn for_blocks(count: usize) -> Self {
+        let lots = 20 * count;
+        Self {
+            lots: Vec::with_capacity(lots),
+            greens: Vec::with_capacity(2 * count),
+            corners: Vec::with_capacity(5 * lots),
+            borders: Vec::with_capacity(5 * lots),
+            ..Self::default()
+        }
+    }
+
+    /// Lines the open ones of some blocks with lots; and says how long each front is, m.
+    fn of_open(
+        blocks: &[Block],
         zoning: &Zoning,
         config: &LotConfig,
         streams: Stream,
         taken: &Occupancy,
-    ) -> Self {
-        let mut ribbons = Occupancy::default();
-        for (index, block) in (0..).zip(&blocks).filter(|(_, block)| block.area.is_none()) {
-            let mut divider = Divider::new(&mut self, index, zoning, config, stream_of(block, streams));
-            ribbon::line(&mut divider, block, streams, taken, &mut ribbons);
+    ) -> (Self, Vec<f64>) {
+        let (mut land, mut ribbons, mut fronts) = (Self::default(), Occupancy::default(), Vec::new());
+        for (index, block) in (0..).zip(blocks).filter(|(_, block)| block.area.is_none()) {
+            let mut divider = Divider::new(&mut land, index, zoning, config, stream_of(block, streams));
+            fronts.append(&mut ribbon::line(&mut divider, block, streams, taken, &mut ribbons));
         }
-        self.blocks = blocks;
-        self
+        (land, fronts)
     }
 
     /// The greens and their blocks alone: all that is asked for once buildings stand, and a fraction of the memory.
@@ -179,15 +185,41 @@ impl Land {
         land
     }
 
-    /// Adds what another part of the land holds.
-    fn append(&mut self, mut part: Self) {
-        let shift = self.corners.len() as u32;
-        self.corners.append(&mut part.corners);
-        self.borders.append(&mut part.borders);
-        self.lots.extend(part.lots.into_iter().map(|lot| Lot { start: lot.start + shift, ..lot }));
-        self.greens
-            .extend(part.greens.into_iter().map(|green| Green { start: green.start + shift, ..green }));
-        self.frontage += part.frontage;
+    /// All that some parts of the land hold, in their order. It is as much as can be carried, so two threads carry it.
+    fn joined(mut parts: Vec<Self>) -> Self {
+        if parts.len() < 2 {
+            return parts.pop().unwrap_or_default();
+        }
+        let corners: Vec<Vec<Point2>> =
+            parts.iter_mut().map(|part| std::mem::take(&mut part.corners)).collect();
+        let mut starts = Vec::with_capacity(parts.len());
+        let count = corners.iter().fold(0, |start, part| {
+            starts.push(start as u32);
+            start + part.len()
+        });
+        let (corners, mut land) = rayon::join(
+            || in_one(corners, count),
+            || {
+                let sum = |counted: fn(&Self) -> usize| parts.iter().map(counted).sum();
+                let mut land = Self {
+                    lots: Vec::with_capacity(sum(|part| part.lots.len())),
+                    greens: Vec::with_capacity(sum(|part| part.greens.len())),
+                    borders: Vec::with_capacity(count),
+                    ..Self::default()
+                };
+                for (mut part, shift) in parts.into_iter().zip(starts) {
+                    land.borders.append(&mut part.borders);
+                    land.lots
+                        .extend(part.lots.into_iter().map(|lot| Lot { start: lot.start + shift, ..lot }));
+                    let moved = |green: Green| Green { start: green.start + shift, ..green };
+                    land.greens.extend(part.greens.into_iter().map(moved));
+                    land.frontage += part.frontage;
+                }
+                land
+            },
+        );
+        land.corners = corners;
+        land
     }
 
     /// Divides one closed block by itself; an open one has no lots.
@@ -236,6 +268,15 @@ impl Land {
         self.borders.extend(ring.borders[first..].iter().chain(&ring.borders[..first]));
         (start, ring.len() as u32)
     }
+}
+
+/// So many things of some parts, in their order.
+fn in_one<T>(parts: Vec<Vec<T>>, count: usize) -> Vec<T> {
+    let mut all = Vec::with_capacity(count);
+    for mut part in parts {
+        all.append(&mut part);
+    }
+    all
 }
 
 /// The stream of a block is a function of where it lies, so that a change elsewhere in the city changes no lot here.

@@ -19,14 +19,15 @@ const SHALLOWEST: f64 = 8.0;
 /// A lot is not halved to less than this, m.
 const NARROWEST_HALF: f64 = 7.0;
 
-/// Lines the streets of an open block with lots that touch neither `taken` nor one another.
+/// Lines the streets of an open block with lots that touch neither `taken` nor one another; says how long the front of each
+/// is where buildings may stand, m.
 pub(super) fn line(
     divider: &mut Divider<'_>,
     block: &Block,
     streams: Stream,
     taken: &Occupancy,
     ribbons: &mut Occupancy,
-) {
+) -> Vec<f64> {
     let ring = block.ring();
     let mut order: Vec<(usize, f64)> = (0..ring.len())
         .filter(|index| ring.borders[*index].is_street())
@@ -44,10 +45,9 @@ pub(super) fn line(
     for (index, length) in &order {
         let is_built = enter(divider, &street_of(*index, *length), *length) != Zone::Park;
         fronts[*index] = Front { length: *length, is_built, depths: [0.0; 2] };
-        if is_built {
-            divider.add_frontage(*length);
-        }
     }
+    let built =
+        order.iter().filter(|(index, _)| fronts[*index].is_built).map(|(_, length)| *length).collect();
     let opposite = Opposite::of(&ring, &fronts);
     for (index, length) in order {
         let street = street_of(index, length);
@@ -62,16 +62,17 @@ pub(super) fn line(
         let least = SHALLOWEST.max(size.least_area / size.least_width);
         let mut lots = Vec::new();
         let mut depths: Option<[f64; 2]> = None;
-        for lot in stations(divider, &row, &street) {
-            let depth = shared(&facing, &lot, &street, depth, least);
+        stations(divider, &row, &street, |_, lot| {
+            let depth = shared(&facing, lot, &street, depth, least);
             depths = Some(depths.map_or([depth; 2], |[first, _]| [first, depth]));
-            fit(&lot, &Site { street: &street, depth, taken }, ribbons, &mut lots);
-        }
+            fit(lot, &Site { street: &street, depth, taken }, ribbons, &mut lots);
+        });
         fronts[index].depths = depths.unwrap_or([depth; 2]);
         for lot in lots {
             file(divider, &lot, is_park);
         }
     }
+    built
 }
 
 /// Files a lot; one of a park, or too small or too narrow, is green.

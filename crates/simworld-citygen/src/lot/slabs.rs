@@ -37,7 +37,7 @@ pub(super) fn divide(divider: &mut Divider<'_>, piece: Ring, style: LotStyle) {
         let inwards = street.inwards();
         match left.split(street.start + inwards * depth, inwards, &mut row, &mut rest) {
             Split::Both => {
-                rows.push((row.clone(), street));
+                rows.push((std::mem::take(&mut row), street));
                 std::mem::swap(&mut left, &mut rest);
             }
             Split::Behind => {
@@ -94,16 +94,21 @@ fn depth(
 
 /// Cuts a row across into lots.
 pub(super) fn slice(divider: &mut Divider<'_>, row: &Ring, street: &Street) {
-    for lot in stations(divider, row, street) {
-        divider.lot(&lot);
-    }
+    stations(divider, row, street, Divider::lot);
 }
 
-/// The lots of a row.
-pub(super) fn stations(divider: &mut Divider<'_>, row: &Ring, street: &Street) -> Vec<Ring> {
-    let Some((mut station, end)) = front(row, street) else { return vec![row.clone()] };
+/// Hands out the lots of a row, one after the other.
+pub(super) fn stations<'a>(
+    divider: &mut Divider<'a>,
+    row: &Ring,
+    street: &Street,
+    mut take: impl FnMut(&mut Divider<'a>, &Ring),
+) {
+    let Some((mut station, end)) = front(row, street) else {
+        take(divider, row);
+        return;
+    };
     let size = divider.size();
-    let mut lots = Vec::with_capacity(((end - station) / size.least_width) as usize + 1);
     let (mut left, mut lot, mut rest) = (row.clone(), Ring::default(), Ring::default());
     loop {
         let room = end - station;
@@ -117,15 +122,14 @@ pub(super) fn stations(divider: &mut Divider<'_>, row: &Ring, street: &Street) -
         station += width;
         match left.split(street.start + street.along * station, street.along, &mut lot, &mut rest) {
             Split::Both => {
-                lots.push(lot.clone());
+                take(divider, &lot);
                 std::mem::swap(&mut left, &mut rest);
             }
             Split::Behind => break,
             Split::Ahead => {}
         }
     }
-    lots.push(left);
-    lots
+    take(divider, &left);
 }
 
 /// From where to where a row borders its street, as stations on the street's line, m.

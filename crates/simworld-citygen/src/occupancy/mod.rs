@@ -41,6 +41,13 @@ impl Occupancy {
         Self { outlines: Outlines::with_capacity(outlines), slots: Slots::with_capacity(outlines) }
     }
 
+    /// Empty, for the land of some roads that is so many outlines, and with room for what will stand along them: to move all
+    /// of them to where there is more room takes long.
+    fn with_land(outlines: usize) -> Self {
+        let more = outlines / 4 * 3;
+        Self { outlines: Outlines::with_capacity(outlines + more), slots: Slots::with_capacity(outlines) }
+    }
+
     /// Makes room for so many more outlines at once. What more of them do to the slots is seen when they come: many lie in
     /// cells that are in use already.
     pub fn reserve(&mut self, outlines: usize) {

@@ -33,8 +33,8 @@ impl Occupancy {
     ) -> Self {
         let wanted: Vec<RoadId> =
             (0..network.roads.len()).map(RoadId::from_index).filter(|road| roads(*road)).collect();
-        // A bent street is some twenty strips; houses will come.
-        let mut taken = Self::with_capacity(wanted.len() * 16);
+        // A bent street is some twenty strips.
+        let mut taken = Self::with_land(wanted.len() * 16);
         for road in wanted {
             taken.add_road(network, road);
         }

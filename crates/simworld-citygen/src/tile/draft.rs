@@ -12,8 +12,12 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadClass, Street, StreetPlan};
 
 use super::lattice::{Axis, Junction};
-use super::{TileId, TileSource};
+use super::{Superblock, TileId, TileSource};
+use crate::RoadConfig;
 use crate::growth::{self, Within};
+
+/// Streets of a superblock with its main streets and a share of the margin: most have fewer.
+const STREETS: usize = 96;
 
 /// The streets of a tile.
 #[derive(Clone, Debug)]
@@ -84,28 +88,36 @@ impl Drawer {
     }
 
     /// All streets within a superblock.
-    fn within(&mut self, within: &Within, walls: usize) {
-        let mut numbers = Vec::with_capacity(within.nodes.len());
-        for (index, at) in within.nodes.iter().enumerate() {
+    fn within(&mut self, superblock: Superblock) {
+        let Superblock { within: Within { nodes, streets }, walls } = superblock;
+        let mut numbers = Vec::with_capacity(nodes.len());
+        for (index, at) in nodes.iter().enumerate() {
             numbers.push(if index < walls { None } else { Some(self.plan.nodes.len()) });
             if index >= walls {
                 self.plan.nodes.push(*at);
             }
         }
-        for street in &within.streets {
-            let [from, to] = [street.from, street.to]
-                .map(|end| numbers[end].unwrap_or_else(|| self.node(within.nodes[end])));
-            self.push(Street { from, to, ..street.clone() }, [true; 2]);
+        for street in streets {
+            let [from, to] =
+                [street.from, street.to].map(|end| numbers[end].unwrap_or_else(|| self.node(nodes[end])));
+            self.push(Street { from, to, ..street }, [true; 2]);
         }
     }
 
     /// The streets within a neighbouring superblock that meet the outline, cut off where they meet others.
-    fn margin_within(&mut self, within: &Within) {
-        for street in &within.streets {
+    fn margin_within(&mut self, mut superblock: Superblock, roads: &RoadConfig) {
+        let meets = |node: Point2| self.known.contains_key(&bits(node));
+        // Only theirs is the room to turn that shows; most lead on.
+        let nodes = &superblock.within.nodes;
+        if superblock.has_dead_end(|street| meets(nodes[street.from]) || meets(nodes[street.to])) {
+            superblock.make_turning_room(roads);
+        }
+        let Within { nodes, streets } = superblock.within;
+        for street in &streets {
             for end in [street.from, street.to] {
-                let Some(here) = self.known.get(&bits(within.nodes[end])).copied() else { continue };
+                let Some(here) = self.known.get(&bits(nodes[end])).copied() else { continue };
                 let far = self.plan.nodes.len();
-                self.plan.nodes.push(within.nodes[street.from + street.to - end]);
+                self.plan.nodes.push(nodes[street.from + street.to - end]);
                 let (from, to) = if end == street.from { (here, far) } else { (far, here) };
                 self.push(Street { from, to, ..street.clone() }, [false; 2]);
             }
@@ -131,9 +143,11 @@ impl Drawer {
     /// streets.
     pub(super) fn tile(&mut self, source: &TileSource, id: TileId, beyond: Beyond) -> usize {
         let lattice = source.lattice();
+        let roads = &source.config().city.roads;
         let count = i64::from(source.config().lattice.superblocks);
         let (west, south) = (i64::from(id.x) * count, i64::from(id.y) * count);
         let (east, north) = (west + count, south + count);
+        self.plan.streets.reserve(STREETS * (count * count) as usize);
         for row in south..north {
             for column in west..east {
                 self.main_street(&lattice.street(column, row, Axis::East), [true, row > south]);
@@ -142,8 +156,9 @@ impl Drawer {
         }
         for row in south..north {
             for column in west..east {
-                let (within, walls) = source.superblock(column, row);
-                self.within(&within, walls);
+                let mut superblock = source.superblock(column, row);
+                superblock.make_turning_room(roads);
+                self.within(superblock);
             }
         }
         let own = self.plan.streets.len();
@@ -169,7 +184,7 @@ impl Drawer {
         let beside: Vec<(i64, i64)> =
             beside.chain((south..north).flat_map(|row| [(west - 1, row), (east, row)])).collect();
         for (column, row) in beside {
-            self.margin_within(&source.superblock(column, row).0);
+            self.margin_within(source.superblock(column, row), &source.config().city.roads);
         }
         for column in west..=east {
             self.margin_main(&lattice.street(column, south - 1, Axis::North), true);

@@ -154,27 +154,45 @@ impl TileSource {
         &self.lattice
     }
 
-    /// The streets within a superblock, and how many of their nodes lie on the main streets round it.
-    fn superblock(&self, column: i64, row: i64) -> (Within, usize) {
+    /// The streets within a superblock.
+    fn superblock(&self, column: i64, row: i64) -> Superblock {
         let wall = self.lattice.wall(column, row);
         let own = self.superblocks.indexed(column as u64).indexed(row as u64).seed();
-        let roads = &self.config.city.roads;
-        let mut within = growth::grow_within(&wall, roads, self.seed, own);
-        make_turning_room(&mut within, wall.len(), roads);
-        (within, wall.len())
+        let within = growth::grow_within(&wall, &self.config.city.roads, self.seed, own);
+        Superblock { within, walls: wall.len() }
     }
 }
 
-/// Gives the dead ends within a superblock room to turn. Nothing beyond its wall is near, so that neighbours who look at it
-/// see the same.
-fn make_turning_room(within: &mut Within, wall: usize, roads: &RoadConfig) {
-    let (mut plan, sections) = growth::plan_of_sections(roads);
-    plan.nodes = std::mem::take(&mut within.nodes);
-    plan.streets = std::mem::take(&mut within.streets);
-    let count = plan.streets.len();
-    let main = |node: usize| Street { section: sections[1], ..Street::simple(node, (node + 1) % wall) };
-    plan.streets.extend((0..wall).map(main));
-    plan.make_turning_room();
-    plan.streets.truncate(count);
-    (within.nodes, within.streets) = (plan.nodes, plan.streets);
+/// The streets within a superblock.
+struct Superblock {
+    within: Within,
+    /// So many of their nodes, the first ones, lie on the main streets round it.
+    walls: usize,
+}
+
+impl Superblock {
+    /// Whether some of the streets end dead.
+    fn has_dead_end(&self, counts: impl Fn(&Street) -> bool) -> bool {
+        let Self { within, walls } = self;
+        let mut degrees = vec![0_u32; within.nodes.len()];
+        for end in within.streets.iter().flat_map(|street| [street.from, street.to]) {
+            degrees[end] += 1;
+        }
+        let is_dead = |end: usize| end >= *walls && degrees[end] == 1;
+        within.streets.iter().any(|street| (is_dead(street.from) || is_dead(street.to)) && counts(street))
+    }
+
+    /// Gives the dead ends within room to turn. Nothing beyond its wall is near, so that neighbours who look at it see the
+    /// same.
+    fn make_turning_room(&mut self, roads: &RoadConfig) {
+        let (mut plan, sections) = growth::plan_of_sections(roads);
+        plan.nodes = std::mem::take(&mut self.within.nodes);
+        plan.streets = std::mem::take(&mut self.within.streets);
+        let (count, walls) = (plan.streets.len(), self.walls);
+        let main = |node: usize| Street { section: sections[1], ..Street::simple(node, (node + 1) % walls) };
+        plan.streets.extend((0..walls).map(main));
+        plan.make_turning_room();
+        plan.streets.truncate(count);
+        self.within = Within { nodes: plan.nodes, streets: plan.streets };
+    }
 }

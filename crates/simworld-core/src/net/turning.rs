@@ -41,8 +41,7 @@ impl StreetPlan {
         if dead.is_empty() {
             return;
         }
-        let lines: Vec<Vec<Point2>> = self.streets.iter().map(|street| self.centerline(street)).collect();
-        let cells = cells(&lines);
+        let (cells, lines) = self.lines_about(&dead);
         let rooms: Vec<(usize, bool, TurningRoom)> = (0..self.streets.len())
             .flat_map(|index| [(index, false), (index, true)])
             .filter_map(|(index, at_end)| {
@@ -98,6 +97,25 @@ impl StreetPlan {
         room.head = room.is_long_enough()
             && self.has_room_for_head(wanted, others(), |node| degrees.get(&node) == Some(&1));
         room
+    }
+
+    /// The streets in the cells about some nodes, and the centreline of each: those of no other street.
+    fn lines_about(&self, nodes: &[usize]) -> (Cells, Vec<Vec<Point2>>) {
+        let about = About::of(nodes.iter().map(|node| self.nodes[*node]));
+        let (mut cells, mut line) = (Cells::new(), Vec::new());
+        let lines = self.streets.iter().enumerate().map(|(index, street)| {
+            line.clear();
+            line.push(self.nodes[street.from]);
+            line.extend(&street.via);
+            line.push(self.nodes[street.to]);
+            let before = cells.len();
+            about.enter(index, &line, &mut cells);
+            if cells.len() > before { line.clone() } else { Vec::new() }
+        });
+        let lines = lines.collect();
+        cells.sort_unstable();
+        cells.dedup();
+        (cells, lines)
     }
 
     fn room_among<'a>(
@@ -176,27 +194,55 @@ impl TurningRoom {
 type Cells = Vec<((i64, i64), usize)>;
 
 fn cell(point: Point2) -> (i64, i64) {
-    ((point.x / CELL).floor() as i64, (point.y / CELL).floor() as i64)
+    // The floor, without a call: most points are looked at for nothing.
+    let along = |metres: f64| {
+        let cells = metres / CELL;
+        cells as i64 - i64::from((cells as i64) as f64 > cells)
+    };
+    (along(point.x), along(point.y))
 }
 
-fn cells(lines: &[Vec<Point2>]) -> Cells {
-    let mut cells = Cells::new();
-    for (index, line) in lines.iter().enumerate() {
+/// The cells about some points: most streets are far from all dead ends.
+struct About {
+    /// A mark for each cell, by the lowest bits of its key; some are marked that lie elsewhere.
+    marks: Vec<bool>,
+}
+
+impl About {
+    fn of(points: impl ExactSizeIterator<Item = Point2>) -> Self {
+        let mut marks = vec![false; (64 * points.len()).next_power_of_two()];
+        let mask = marks.len() - 1;
+        for (column, row) in points.map(cell) {
+            for column in column - 1..=column + 1 {
+                for row in row - 1..=row + 1 {
+                    marks[Self::key((column, row)) & mask] = true;
+                }
+            }
+        }
+        Self { marks }
+    }
+
+    /// Cells that lie together have keys of their own: so many to a row.
+    const fn key((column, row): (i64, i64)) -> usize {
+        row.wrapping_mul(509).wrapping_add(column) as usize
+    }
+
+    /// Enters a street in those of the cells that its centreline passes.
+    fn enter(&self, street: usize, line: &[Point2], cells: &mut Cells) {
         for pair in line.windows(2) {
             let steps = ((pair[1] - pair[0]).norm() / (CELL * 0.5)).ceil().max(1.0);
             for step in 0..=steps as u64 {
-                let at = pair[0] + (pair[1] - pair[0]) * (step as f64 / steps);
-                let entry = (cell(at), index);
+                let cell = cell(pair[0] + (pair[1] - pair[0]) * (step as f64 / steps));
+                if !self.marks[Self::key(cell) & (self.marks.len() - 1)] {
+                    continue;
+                }
                 // A cell holds many points one after the other, of bends above all.
-                if cells.last() != Some(&entry) {
-                    cells.push(entry);
+                if cells.last() != Some(&(cell, street)) {
+                    cells.push((cell, street));
                 }
             }
         }
     }
-    cells.sort_unstable();
-    cells.dedup();
-    cells
 }
 
 /// The streets in the cells about a point with their centrelines, some of them more than once.

@@ -90,12 +90,11 @@ pub(super) fn append(network: &mut RoadNetwork, mut made: Vec<Vec<Connection>>, 
     });
     let parts = made.iter_mut().zip(network.intersections.chunks_mut(PART)).zip(firsts);
     workers::hand_out(workers, parts, |((made, places), first)| number(made, places, first));
-    network.connections.reserve_exact(count);
-    for mut part in made {
+    for part in made {
         for (number, connection) in (network.connections.len()..).zip(&part) {
             network.lanes[connection.from.index()].outgoing.push(ConnectionId::from_index(number));
         }
-        network.connections.append(&mut part);
+        workers::take_over(&mut network.connections, part, count);
     }
 }
 

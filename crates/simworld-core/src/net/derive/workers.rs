@@ -86,11 +86,21 @@ pub(super) fn each<T: Send + Sync>(
     let parts = collect(workers, count.div_ceil(PART), |part| -> Vec<T> {
         (part * PART..count.min((part + 1) * PART)).map(&make).collect()
     });
-    let mut all = Vec::with_capacity(count);
-    for mut part in parts {
-        all.append(&mut part);
+    let mut all = Vec::new();
+    for part in parts {
+        take_over(&mut all, part, count);
     }
     all
+}
+
+/// Adds a part to what is to be so many things. The first part stays where it is: small plans have no other.
+pub(super) fn take_over<T>(all: &mut Vec<T>, mut part: Vec<T>, count: usize) {
+    if all.is_empty() {
+        *all = part;
+        all.reserve_exact(count - all.len());
+    } else {
+        all.append(&mut part);
+    }
 }
 
 #[cfg(test)]
