@@ -4,8 +4,8 @@
 //!
 //! 1. *Arrange*: those who change lanes move over, others begin to; each part shows the last vehicle of each of its lanes.
 //! 2. *Drive*: leave to cross is taken back and granted, accelerations are computed from the frozen state, everybody moves;
-//!    who passes into the next road is handed over.
-//! 3. *Settle*: those handed over join their lanes, junctions that were cleared become free, claims on crossings are counted.
+//!    who passes into the next road is handed over; claims on crossings are counted.
+//! 3. *Settle*: those handed over join their lanes and claim what they have not cleared, junctions that were cleared become free.
 //!
 //! A part writes its own vehicles only. Of other parts it sees what they show, and the sums in [`Junctions`], which nobody reads
 //! in the phase in which others add to them. Who goes out on the oncoming lane is decided [before](super::driving::passing). The result is the same on any number of threads. Parts far from all interest go in
@@ -29,8 +29,9 @@ use super::queues::slabs::Slabs;
 use super::queues::storage::Storage;
 use super::queues::tail::Tail;
 use super::queues::tally::Tally;
-use super::threads::each;
+use super::threads::{Sweep, each};
 use super::tracks::closures::Closures;
+use super::tracks::layout::Place;
 use super::tracks::{Obstacle, Track, Tracks};
 use super::trips::delays::Delays;
 use super::trips::detours::Detours;
@@ -47,7 +48,8 @@ pub(crate) const EXIT: u32 = u32::MAX - 1;
 /// A vehicle slower than this stands, m/s.
 pub(crate) const STANDING: f64 = 0.1;
 
-/// One vehicle, as far as a step needs it.
+/// One vehicle, as far as a step needs it: a line of the cache, and no more than one.
+#[repr(align(64))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Vehicle {
     /// Its front, m along its track.
@@ -151,7 +153,12 @@ impl Scene<'_> {
     /// The last vehicle of a lane, anywhere.
     #[inline]
     pub(crate) fn tail(&self, lane: Track) -> &Tail {
-        let place = self.tracks.layout.place(lane);
+        self.tail_at(self.tracks.layout.place(lane))
+    }
+
+    /// The same by where the lane is kept.
+    #[inline]
+    pub(super) fn tail_at(&self, place: Place) -> &Tail {
         &self.tails[place.part as usize][place.local as usize]
     }
 
@@ -372,19 +379,19 @@ impl VehicleManager {
         self.handed.resize_with(self.parts.len(), Vec::new);
         let mut parts = std::mem::take(&mut self.parts);
         let scene = self.scene(tracks, config, sight, streams, at);
-        each(workers, &mut parts, |_, part| part.arrange(&scene));
+        each(workers, Sweep::of(at.step, 0), &mut parts, |_, part| part.arrange(&scene));
         for (part, tails) in parts.iter_mut().zip(&mut self.tails) {
             std::mem::swap(&mut part.work.tails, tails);
         }
+        self.junctions.forget_claims(&at);
         let scene = self.scene(tracks, config, sight, streams, at);
-        each(workers, &mut parts, |_, part| part.drive(&scene));
+        each(workers, Sweep::of(at.step, 1), &mut parts, |_, part| part.drive(&scene));
         for ((part, tails), handed) in parts.iter_mut().zip(&mut self.tails).zip(&mut self.handed) {
             std::mem::swap(&mut part.work.tails, tails);
             std::mem::swap(&mut part.work.handed, handed);
         }
-        self.junctions.forget_claims(&at);
         let scene = self.scene(tracks, config, sight, streams, at);
-        each(workers, &mut parts, |_, part| part.settle(&scene));
+        each(workers, Sweep::of(at.step, 2), &mut parts, |_, part| part.settle(&scene));
         for (part, handed) in parts.iter_mut().zip(&mut self.handed) {
             std::mem::swap(&mut part.work.handed, handed);
         }

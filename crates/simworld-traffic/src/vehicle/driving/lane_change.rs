@@ -82,11 +82,12 @@ impl Part {
     /// Lets those change who want to and may; a fifth of the lanes in each step of a tenth of a second.
     pub(in crate::vehicle) fn change_lanes(&mut self, scene: &Scene<'_>) {
         let layout = self.layout(scene.tracks);
+        let is_turn_of = scene.at.turn();
         let mut from = 0;
         while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
             let lane = layout.tracks[local];
-            if !scene.at.is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
+            if !is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
                 continue;
             }
             let mut rank = 0;

@@ -5,14 +5,15 @@ mod passing;
 use super::following::{Ahead, Leader};
 use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
 use super::otherwise::Otherwise;
-use crate::vehicle::Idm;
 use crate::vehicle::foreign::strangers::{self, on_track};
 use crate::vehicle::junctions::junction::horizon;
 use crate::vehicle::junctions::precedence::{HURRY, Precedence};
 use crate::vehicle::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::ghosts::{Ghost, first_block, first_ghost};
+use crate::vehicle::tracks::layout::Measure;
 use crate::vehicle::tracks::{Obstacle, Track, Tracks};
+use crate::vehicle::{Idm, Way};
 
 /// Where a vehicle stops before a line, m.
 pub(in crate::vehicle) const BEFORE_LINE: f64 = 0.5;
@@ -47,13 +48,13 @@ impl<'a> Lane<'a> {
     pub(in crate::vehicle) fn new(
         part: &'a Part,
         scene: &'a Scene<'a>,
-        track: Track,
+        local: usize,
         ghosts: &'a [Ghost],
     ) -> Self {
         let tracks = scene.tracks;
-        let (end, bend) = (tracks.length[track as usize], tracks.speed[track as usize]);
+        let track = part.layout(tracks).tracks[local];
+        let Measure { length: end, limit, bend } = part.layout(tracks).measures[local];
         let way = tracks.connection(track);
-        let limit = way.map_or(bend, |way| tracks.speed[tracks.lane_after(way) as usize]);
         let closes_up =
             !scene.passes.is_empty() && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up;
         Self { part, scene, track, way, end, limit, bend, ghosts, closes_up }
@@ -62,9 +63,8 @@ impl<'a> Lane<'a> {
 
 /// The accelerations of the vehicles of a track, front to back, m/s².
 pub(in crate::vehicle) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], accelerations: &mut Vec<f64>) {
-    let leaders = std::iter::once(None).chain(queue.iter().map(Some));
-    accelerations
-        .extend(queue.iter().zip(leaders).map(|(vehicle, leader)| acceleration(lane, vehicle, leader)));
+    let mut leader = None;
+    accelerations.extend(queue.iter().map(|vehicle| acceleration(lane, vehicle, leader.replace(vehicle))));
 }
 
 /// The acceleration of a vehicle, m/s².
@@ -83,7 +83,9 @@ pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leade
     match lane.way {
         Some(way) => view.across(lane, way, to_end, vehicle, leader.is_none()),
         None if vehicle.holding != vehicle.next || vehicle.next == NONE => {
-            view.stay_on(lane, vehicle, to_end, leader.is_none());
+            if minds_end(vehicle, to_end, leader.is_none()) {
+                view.stay_on(lane, vehicle, to_end, leader.is_none());
+            }
         }
         None => view.enter_junction(lane, vehicle, to_end, leader.is_none()),
     }
@@ -92,6 +94,13 @@ pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leade
         None => view.mind_bodies(lane, vehicle),
     }
     view.respond(lane, vehicle)
+}
+
+/// Whether one without leave to cross minds the end of its lane, or, as the first, who has left it but for his rear.
+#[inline]
+fn minds_end(vehicle: &Vehicle, to_end: f64, is_first: bool) -> bool {
+    let beyond = if is_first { LONGEST } else { 0.0 };
+    vehicle.next == NONE || to_end <= horizon(vehicle.v) + beyond
 }
 
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
@@ -303,16 +312,17 @@ impl View<'_> {
     fn enter_junction(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, to_line: f64, is_first: bool) {
         let (tracks, way) = (lane.scene.tracks, vehicle.next as usize);
         let track = tracks.lanes + way;
-        self.slow_to(self.factor * tracks.speed[track], to_line);
+        let Way { local, length, speed, .. } = tracks.ways[way];
+        self.slow_to(self.factor * speed, to_line);
         self.mind_people(tracks, &lane.scene.sight, way, to_line);
         self.mind_older(lane, vehicle, way, -to_line);
         if !is_first {
             return;
         }
         self.let_part(lane, way, -to_line);
-        match lane.part.slabs.queue(tracks.layout.local(track as Track)).last() {
+        match lane.part.slabs.queue(local as usize).last() {
             Some(leader) => self.follow(to_line + leader.s - leader.length(), leader.v),
-            None => self.after_way(lane.scene, way, to_line + tracks.length[track]),
+            None => self.after_way(lane.scene, way, to_line + length),
         }
         if let Some(obstacle) = first_obstacle(&lane.scene.sight, track as Track, 0.0, 0.0) {
             self.follow(to_line + obstacle.near, obstacle.v);
@@ -361,8 +371,8 @@ impl View<'_> {
 
     /// The lane behind a junction: its last vehicle, and its end, where one may have to stop.
     fn after_way(&mut self, scene: &Scene<'_>, way: usize, to_lane: f64) {
-        let lane = scene.tracks.lane_after(way);
-        let last = scene.tail(lane);
+        let Way { to: lane, there, .. } = scene.tracks.ways[way];
+        let last = scene.tail_at(there);
         if !last.is_none() {
             self.follow(to_lane + last.rear + self.closer, last.v);
         }
@@ -374,6 +384,9 @@ impl View<'_> {
 
     /// Stops before strips with people on them; `offset` is the distance to the beginning of the way, negative on it.
     fn mind_people(&mut self, tracks: &Tracks, sight: &Sight<'_>, way: usize, offset: f64) {
+        if !tracks.ways[way].has_strips {
+            return;
+        }
         for strip in &tracks.strips[way] {
             let distance = offset + strip.stop;
             // Whoever is on the strip already drives on and clears it.

@@ -169,8 +169,7 @@ impl Part {
                 self.grant(scene, &mut requests);
                 until = junctions.find(|end| *end > local).unwrap_or(layout.lanes);
             }
-            let track = layout.tracks[local];
-            let end = scene.tracks.length[track as usize];
+            let (track, end) = (layout.tracks[local], layout.measures[local].length);
             self.revoke(scene, local, end);
             self.collect(scene, local, end, &mut requests);
             if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {

@@ -5,7 +5,7 @@ use super::tail::Tail;
 use crate::vehicle::driving::lane_change::{old_lane, out, stretch};
 use crate::vehicle::manager::{STANDING, Scene, Vehicle};
 use crate::vehicle::part::Part;
-use crate::vehicle::tracks::{Obstacle, Track};
+use crate::vehicle::tracks::{Obstacle, Track, Way};
 
 /// From so far one sees that one's lane is blocked, m.
 pub(in crate::vehicle) const BLOCK_SEEN: f64 = 80.0;
@@ -120,11 +120,11 @@ impl Part {
         way: u32,
     ) -> impl Iterator<Item = (f64, f64, f64)> {
         let tracks = scene.tracks;
-        let track = tracks.lanes + way as usize;
-        let on_way = self.slabs.queue(tracks.layout.local(track as Track)).iter();
+        let Way { local, there, length, .. } = tracks.ways[way as usize];
+        let on_way = self.slabs.queue(local as usize).iter();
         // Of those behind the way only the last can still have its rear on it.
-        let tail = scene.tail(tracks.lane_after(way as usize));
-        let rear = tail.rear + tracks.length[track];
+        let tail = scene.tail_at(there);
+        let rear = tail.rear + length;
         let behind = (tail.way == way).then_some((rear + f64::from(tail.length), rear, tail.v));
         on_way.map(|other| (other.s, other.s - other.length(), other.v)).chain(behind)
     }
