@@ -141,6 +141,9 @@ pub(crate) struct Scene<'a> {
     /// Who is driven by somebody else, and the settings that bind them.
     pub(crate) controls: &'a Controls,
     pub(crate) hasty: &'a TrafficConfig,
+    /// By what the drivers of each type measure how they come nearer, and those whom somebody else drives.
+    pub(crate) closes_by: &'a [f64],
+    pub(crate) hasty_closes_by: &'a [f64],
     /// Where drivers hear a siren.
     pub(crate) sirens: &'a Sirens,
     /// Who passes what stands on a lane.
@@ -241,6 +244,9 @@ pub(crate) struct VehicleManager {
     /// What binds those whom somebody else drives, under the conditions of now.
     #[serde(skip)]
     hasty: Option<TrafficConfig>,
+    /// By what the drivers of each type measure how they come nearer, and the same of those.
+    #[serde(skip)]
+    closes_by: [Vec<f64>; 2],
     #[serde(skip)]
     pub(super) waits: Waits,
     /// Lanes whose first has lost patience.
@@ -306,6 +312,8 @@ impl VehicleManager {
             halts: &self.halts,
             controls: &self.controls,
             hasty: self.hasty.as_ref().unwrap_or(config),
+            closes_by: &self.closes_by[0],
+            hasty_closes_by: &self.closes_by[1],
             sirens: &self.sirens,
             passings: &self.passings,
             handed: &self.handed,
@@ -402,11 +410,16 @@ impl VehicleManager {
         self.pull_in(tracks, at.dt);
     }
 
-    /// Takes up the conditions for those whom somebody else drives, if there are any.
+    /// Takes up the conditions, for those whom somebody else drives if there are any.
     fn mind_haste(&mut self, config: &TrafficConfig) {
         let is_known = self.hasty.as_ref().is_some_and(|hasty| hasty.conditions == config.conditions);
         if !self.controls.is_empty() && !is_known {
             self.hasty = Some(hasty(config));
+        }
+        let settings = [config, self.hasty.as_ref().unwrap_or(config)];
+        for (known, config) in self.closes_by.iter_mut().zip(settings) {
+            known.clear();
+            known.extend(config.types.iter().map(|row| row.driver.closes_by()));
         }
     }
 

@@ -41,6 +41,8 @@ pub(crate) struct Transfer {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Work {
     pub(super) ghosts: Vec<Ghost>,
+    /// Lanes that have such, a bit each.
+    pub(super) haunted: Vec<u64>,
     pub(super) accelerations: Vec<f64>,
     pub(super) weights: Vec<f64>,
     /// Who is driven by somebody else: the number of the track in the part, and of the vehicle.
@@ -217,7 +219,7 @@ impl Part {
                 let count = steered.partition_point(|(track, _)| *track as usize <= local);
                 let (here, others) = steered.split_at(count);
                 steered = others;
-                let hasty = Scene { config: scene.hasty, ..*scene };
+                let hasty = Scene { config: scene.hasty, closes_by: scene.hasty_closes_by, ..*scene };
                 let lane = Lane::new(self, &hasty, local, own_ghosts);
                 obey(scene, &lane, queue, here.iter().map(|(_, id)| *id), &mut accelerations[first..]);
             }
@@ -358,7 +360,9 @@ impl Part {
                     let behind = queue.iter_mut().rev().take_while(|vehicle| vehicle.s <= LONGEST);
                     cleared.extend(behind.filter_map(|vehicle| clear_behind(scene, claims, vehicle)));
                 } else {
-                    queue.iter().for_each(|vehicle| claims.claim(scene.tracks, vehicle, vehicle.s));
+                    for vehicle in queue.iter() {
+                        claims.claim(scene.tracks, vehicle, vehicle.s);
+                    }
                 }
             }
         }

@@ -3,6 +3,7 @@
 mod passing;
 
 use super::following::{Ahead, Leader};
+use super::idm::{greater, less};
 use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
 use super::otherwise::Otherwise;
 use crate::vehicle::foreign::strangers::{self, on_track};
@@ -45,6 +46,7 @@ pub(in crate::vehicle) struct Lane<'a> {
 }
 
 impl<'a> Lane<'a> {
+    #[inline]
     pub(in crate::vehicle) fn new(
         part: &'a Part,
         scene: &'a Scene<'a>,
@@ -106,6 +108,8 @@ fn minds_end(vehicle: &Vehicle, to_end: f64, is_first: bool) -> bool {
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
 struct View<'a> {
     idm: &'a Idm,
+    /// By what its driver measures how he comes nearer.
+    closes_by: f64,
     /// One who is not perfect, or drives by another model than the IDM.
     otherwise: Option<Otherwise<'a>>,
     s: f64,
@@ -133,6 +137,7 @@ impl<'a> View<'a> {
         let kind = config.vehicle_type(vehicle.row);
         Self {
             idm: &kind.driver,
+            closes_by: lane.scene.closes_by[usize::from(vehicle.row)],
             otherwise: kind.drives_otherwise().then(|| Otherwise::new(lane.scene, kind, vehicle.id)),
             s: vehicle.s,
             v: vehicle.v,
@@ -156,7 +161,7 @@ impl View<'_> {
     /// The acceleration, m/s².
     #[inline]
     fn respond(&self, lane: &Lane<'_>, vehicle: &Vehicle) -> f64 {
-        let mut acceleration = self.follow_model(lane, vehicle).min(self.most);
+        let mut acceleration = less(self.follow_model(lane, vehicle), self.most);
         if self.takes_gap {
             acceleration = acceleration.max((acceleration * HURRY).min(self.idm.acceleration * HURRY));
         }
@@ -233,9 +238,12 @@ impl View<'_> {
 
     #[inline]
     fn see(&mut self, leader: Leader) {
-        self.gap = self.gap.min(leader.gap);
+        self.gap = less(leader.gap, self.gap);
         match &self.otherwise {
-            None => self.ahead.press(self.idm, self.v, leader.gap, leader.speed),
+            None => {
+                let Leader { gap, speed, .. } = leader;
+                self.ahead.press(self.idm.pressure_by(self.closes_by, self.v, gap, speed));
+            }
             Some(otherwise) => otherwise.see(&mut self.ahead, self.v, leader),
         }
     }
@@ -280,8 +288,8 @@ impl View<'_> {
 
     /// Must have a speed so far ahead, braking comfortably.
     fn slow_to(&mut self, speed: f64, distance: f64) {
-        let allowed = (speed * speed + 2.0 * self.idm.deceleration * distance.max(0.0)).sqrt();
-        self.bend = self.bend.min(allowed.max(0.5));
+        let allowed = (speed * speed + 2.0 * self.idm.deceleration * greater(distance, 0.0)).sqrt();
+        self.bend = less(greater(allowed, 0.5), self.bend);
     }
 
     /// On a lane without leave to cross: its end, and those who have left it but for their rear.

@@ -337,7 +337,7 @@ pub(in crate::vehicle) fn horizon(v: f64) -> f64 {
 
 /// Whether a vehicle would ask in vain, and has not stood for so long that anybody does anything about it.
 fn waits_at_red(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
-    let signal = scene.tracks.ways[vehicle.next as usize].signal;
+    let signal = scene.tracks.signals[vehicle.next as usize];
     vehicle.stood <= TOO_LONG && scene.aspect(signal) == Aspect::Red && !scene.sirens.is_on(vehicle.id)
 }
 

@@ -109,7 +109,7 @@ mod tests {
         let tracks = Tracks::new(Arc::new(network), &TrafficConfig::default());
         let (lanes, mut held, mut found) = (tracks.lanes as Track, Held::default(), 0);
         for every in [1, 2, 3, 7] {
-            let is_held = |way: u32| way % every == 0;
+            let is_held = |way: u32| way.is_multiple_of(every);
             for layout in &tracks.layout.parts {
                 held.look(&layout.tracks[layout.lanes..], |track| is_held(track - lanes));
                 for way in layout.tracks[layout.lanes..].iter().map(|track| (track - lanes) as usize) {

@@ -20,6 +20,7 @@ use beside::Beside;
 use closures::Closures;
 use conflicts::{Conflict, conflicts};
 use layout::{Layout, Place};
+use leading::is_sure;
 use meeting::{Held, Meetings};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
@@ -113,9 +114,13 @@ pub(crate) struct Tracks {
     pub(crate) speed: Vec<f64>,
     /// The ways across, by connection.
     pub(crate) ways: Vec<Way>,
+    /// Their signal groups again, which are asked for in each step of a red light, and whether one can count on a change of lanes
+    /// behind each.
+    pub(super) signals: Vec<u32>,
+    sure: Vec<bool>,
     /// The connections whose vehicles could touch one on this connection, and where.
     pub(crate) conflicts: Ragged<Conflict>,
-    /// Their numbers alone: one asks for all of them who is there, and hardly ever for where they meet.
+    /// A bit for each of them: one asks for all of them who is there, and hardly ever for where they meet.
     meetings: Meetings,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Ragged<(u32, f64)>,
@@ -176,9 +181,12 @@ impl Tracks {
             let has_strips = !strips[index].is_empty();
             way(&network, index, ends, (length[track], speed[track]), has_strips)
         };
+        let ways: Vec<Way> = connections.clone().map(way).collect();
         Self {
             lanes: network.lanes.len(),
-            ways: connections.clone().map(way).collect(),
+            signals: ways.iter().map(|way| way.signal).collect(),
+            sure: ways.iter().map(|way| is_sure(length[way.to as usize])).collect(),
+            ways,
             meetings: Meetings::new(&layout, network.lanes.len(), &conflicts),
             conflicts,
             siblings: connections.map(|index| siblings(&network, index)).collect(),
