@@ -35,10 +35,12 @@ impl Moment {
         (self.step + 1).is_multiple_of(steps_of(FAR_INTERVAL, self.dt))
     }
 
-    /// Whether the drivers of a lane look beside in this step, those of one lane after those of another.
-    #[inline]
-    pub(super) fn is_turn_of(&self, lane: Track) -> bool {
-        (self.step + u64::from(lane)).is_multiple_of(steps_of(LOOKS_BESIDE, self.dt))
+    /// The drivers of which lanes look beside in this step, those of one lane after those of another.
+    pub(super) fn turn(&self) -> impl Fn(Track) -> bool {
+        // Lanes are fewer than 2³¹, and there are no steps as short as that.
+        let every = steps_of(LOOKS_BESIDE, self.dt).min(1 << 31);
+        let (every, now) = (every as u32, (self.step % every) as u32);
+        move |lane| (now + lane).is_multiple_of(every)
     }
 
     /// The same end of a step that began so long before it, s.

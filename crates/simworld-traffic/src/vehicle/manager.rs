@@ -4,8 +4,8 @@
 //!
 //! 1. *Arrange*: those who change lanes move over, others begin to; each part shows the last vehicle of each of its lanes.
 //! 2. *Drive*: leave to cross is taken back and granted, accelerations are computed from the frozen state, everybody moves;
-//!    who passes into the next road is handed over.
-//! 3. *Settle*: those handed over join their lanes, junctions that were cleared become free, claims on crossings are counted.
+//!    who passes into the next road is handed over; claims on crossings are counted.
+//! 3. *Settle*: those handed over join their lanes and claim what they have not cleared, junctions that were cleared become free.
 //!
 //! A part writes its own vehicles only. Of other parts it sees what they show, and the sums in [`Junctions`], which nobody reads
 //! in the phase in which others add to them. Who goes out on the oncoming lane is decided [before](super::driving::passing). The result is the same on any number of threads. Parts far from all interest go in
@@ -29,8 +29,9 @@ use super::queues::slabs::Slabs;
 use super::queues::storage::Storage;
 use super::queues::tail::Tail;
 use super::queues::tally::Tally;
-use super::threads::each;
+use super::threads::{Sweep, each};
 use super::tracks::closures::Closures;
+use super::tracks::layout::Place;
 use super::tracks::{Obstacle, Track, Tracks};
 use super::trips::delays::Delays;
 use super::trips::detours::Detours;
@@ -47,7 +48,8 @@ pub(crate) const EXIT: u32 = u32::MAX - 1;
 /// A vehicle slower than this stands, m/s.
 pub(crate) const STANDING: f64 = 0.1;
 
-/// One vehicle, as far as a step needs it.
+/// One vehicle, as far as a step needs it: a line of the cache, and no more than one.
+#[repr(align(64))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Vehicle {
     /// Its front, m along its track.
@@ -139,6 +141,9 @@ pub(crate) struct Scene<'a> {
     /// Who is driven by somebody else, and the settings that bind them.
     pub(crate) controls: &'a Controls,
     pub(crate) hasty: &'a TrafficConfig,
+    /// By what the drivers of each type measure how they come nearer, and those whom somebody else drives.
+    pub(crate) closes_by: &'a [f64],
+    pub(crate) hasty_closes_by: &'a [f64],
     /// Where drivers hear a siren.
     pub(crate) sirens: &'a Sirens,
     /// Who passes what stands on a lane.
@@ -151,7 +156,12 @@ impl Scene<'_> {
     /// The last vehicle of a lane, anywhere.
     #[inline]
     pub(crate) fn tail(&self, lane: Track) -> &Tail {
-        let place = self.tracks.layout.place(lane);
+        self.tail_at(self.tracks.layout.place(lane))
+    }
+
+    /// The same by where the lane is kept.
+    #[inline]
+    pub(super) fn tail_at(&self, place: Place) -> &Tail {
         &self.tails[place.part as usize][place.local as usize]
     }
 
@@ -234,6 +244,9 @@ pub(crate) struct VehicleManager {
     /// What binds those whom somebody else drives, under the conditions of now.
     #[serde(skip)]
     hasty: Option<TrafficConfig>,
+    /// By what the drivers of each type measure how they come nearer, and the same of those.
+    #[serde(skip)]
+    closes_by: [Vec<f64>; 2],
     #[serde(skip)]
     pub(super) waits: Waits,
     /// Lanes whose first has lost patience.
@@ -299,6 +312,8 @@ impl VehicleManager {
             halts: &self.halts,
             controls: &self.controls,
             hasty: self.hasty.as_ref().unwrap_or(config),
+            closes_by: &self.closes_by[0],
+            hasty_closes_by: &self.closes_by[1],
             sirens: &self.sirens,
             passings: &self.passings,
             handed: &self.handed,
@@ -372,19 +387,19 @@ impl VehicleManager {
         self.handed.resize_with(self.parts.len(), Vec::new);
         let mut parts = std::mem::take(&mut self.parts);
         let scene = self.scene(tracks, config, sight, streams, at);
-        each(workers, &mut parts, |_, part| part.arrange(&scene));
+        each(workers, Sweep::of(at.step, 0), &mut parts, |_, part| part.arrange(&scene));
         for (part, tails) in parts.iter_mut().zip(&mut self.tails) {
             std::mem::swap(&mut part.work.tails, tails);
         }
+        self.junctions.forget_claims(&at);
         let scene = self.scene(tracks, config, sight, streams, at);
-        each(workers, &mut parts, |_, part| part.drive(&scene));
+        each(workers, Sweep::of(at.step, 1), &mut parts, |_, part| part.drive(&scene));
         for ((part, tails), handed) in parts.iter_mut().zip(&mut self.tails).zip(&mut self.handed) {
             std::mem::swap(&mut part.work.tails, tails);
             std::mem::swap(&mut part.work.handed, handed);
         }
-        self.junctions.forget_claims(&at);
         let scene = self.scene(tracks, config, sight, streams, at);
-        each(workers, &mut parts, |_, part| part.settle(&scene));
+        each(workers, Sweep::of(at.step, 2), &mut parts, |_, part| part.settle(&scene));
         for (part, handed) in parts.iter_mut().zip(&mut self.handed) {
             std::mem::swap(&mut part.work.handed, handed);
         }
@@ -395,11 +410,16 @@ impl VehicleManager {
         self.pull_in(tracks, at.dt);
     }
 
-    /// Takes up the conditions for those whom somebody else drives, if there are any.
+    /// Takes up the conditions, for those whom somebody else drives if there are any.
     fn mind_haste(&mut self, config: &TrafficConfig) {
         let is_known = self.hasty.as_ref().is_some_and(|hasty| hasty.conditions == config.conditions);
         if !self.controls.is_empty() && !is_known {
             self.hasty = Some(hasty(config));
+        }
+        let settings = [config, self.hasty.as_ref().unwrap_or(config)];
+        for (known, config) in self.closes_by.iter_mut().zip(settings) {
+            known.clear();
+            known.extend(config.types.iter().map(|row| row.driver.closes_by()));
         }
     }
 

@@ -17,7 +17,8 @@ use super::queues::path::Path;
 use super::queues::slabs::Slabs;
 use super::queues::tail::Tail;
 use super::tracks::layout::PartLayout;
-use super::tracks::{Track, Tracks};
+use super::tracks::meeting::Held;
+use super::tracks::{Track, Tracks, Way};
 use super::trips::entry::trip;
 use crate::{Counters, Trip, TripEnd};
 
@@ -40,6 +41,8 @@ pub(crate) struct Transfer {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Work {
     pub(super) ghosts: Vec<Ghost>,
+    /// Lanes that have such, a bit each.
+    pub(super) haunted: Vec<u64>,
     pub(super) accelerations: Vec<f64>,
     pub(super) weights: Vec<f64>,
     /// Who is driven by somebody else: the number of the track in the part, and of the vehicle.
@@ -51,6 +54,8 @@ pub(crate) struct Work {
     pub(super) let_in: Vec<u32>,
     /// Whom one who asks for leave would overtake in the order of leave: lane and rank.
     pub(super) overtaken: Vec<(u32, u32)>,
+    /// Its ways that somebody holds, while accelerations are computed.
+    pub(super) held: Held,
     /// Tracks on which somebody holds a way, a bit each.
     busy: Vec<u64>,
     /// Tracks whose front left them in this step.
@@ -127,10 +132,12 @@ impl Part {
         if tails.len() != lanes {
             *tails = vec![Tail::default(); lanes];
         }
-        shown.drain(..).for_each(|lane| tails[lane as usize] = Tail::default());
+        // Those that have somebody are shown anew whole.
+        let left = shown.drain(..).filter(|lane| !self.slabs.is_occupied(*lane as usize));
+        left.for_each(|lane| tails[lane as usize] = Tail::default());
         for lane in self.slabs.occupied().take_while(|lane| *lane < lanes) {
             let [first, ..] = self.slabs.queue(lane) else { continue };
-            let Some(last) = self.slabs.queue(lane).last() else { continue };
+            let last = self.slabs.queue(lane).last().unwrap_or(first);
             let closes_up = !passes.is_empty() && passes.binary_search(&first.id).is_ok();
             tails[lane] = Tail { closes_up, ..Tail::of(last) };
             shown.push(lane as u32);
@@ -188,6 +195,7 @@ impl Part {
         self.accelerate(scene);
         self.integrate(scene);
         self.pass_on(scene);
+        self.claim(scene);
     }
 
     fn accelerate(&mut self, scene: &Scene<'_>) {
@@ -195,14 +203,15 @@ impl Part {
         accelerations.clear();
         self.list_steered(scene);
         let layout = self.layout(scene.tracks);
+        let lanes = scene.tracks.lanes as Track;
+        self.work.held.look(&layout.tracks[layout.lanes..], |way| scene.junctions.is_held(way - lanes));
         let mut steered = &self.work.steered[..];
         let mut ghosts = &self.work.ghosts[..];
         for local in self.slabs.occupied() {
             let from = ghosts.iter().position(|ghost| ghost.lane as usize >= local).unwrap_or(ghosts.len());
             let until = from + ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == local).count();
-            let track = layout.tracks[local];
             let own_ghosts = &ghosts[from..until];
-            let lane = Lane::new(self, scene, track, own_ghosts);
+            let lane = Lane::new(self, scene, local, own_ghosts);
             ghosts = &ghosts[until..];
             let (queue, first) = (self.slabs.queue(local), accelerations.len());
             lookahead::accelerations(&lane, queue, &mut accelerations);
@@ -210,8 +219,8 @@ impl Part {
                 let count = steered.partition_point(|(track, _)| *track as usize <= local);
                 let (here, others) = steered.split_at(count);
                 steered = others;
-                let hasty = Scene { config: scene.hasty, ..*scene };
-                let lane = Lane::new(self, &hasty, track, own_ghosts);
+                let hasty = Scene { config: scene.hasty, closes_by: scene.hasty_closes_by, ..*scene };
+                let lane = Lane::new(self, &hasty, local, own_ghosts);
                 obey(scene, &lane, queue, here.iter().map(|(_, id)| *id), &mut accelerations[first..]);
             }
         }
@@ -229,7 +238,7 @@ impl Part {
         let mut from = 0;
         while let Some(local) = self.slabs.occupied_from(from) {
             from = local + 1;
-            let end = scene.tracks.length[layout.tracks[local] as usize];
+            let end = layout.measures[local].length;
             let queue = self.slabs.queue_mut(local);
             let (own, rest) = accelerations.split_at(queue.len());
             accelerations = rest;
@@ -274,8 +283,7 @@ impl Part {
         let passed = std::mem::take(&mut self.work.passed);
         let layout = self.layout(scene.tracks);
         for local in passed.iter().map(|local| *local as usize) {
-            let track = layout.tracks[local];
-            let end = scene.tracks.length[track as usize];
+            let (track, end) = (layout.tracks[local], layout.measures[local].length);
             while self.slabs.queue(local).first().is_some_and(|front| front.s >= end) {
                 let Some((vehicle, path)) = self.slabs.remove(local, 0) else { break };
                 if local < layout.lanes {
@@ -313,13 +321,14 @@ impl Part {
         self.work.counters.reds_by_siren += u64::from(passes_red(scene, &vehicle, vehicle.next));
         leave_behind(scene, lane, &mut vehicle, &mut path);
         let track = tracks.lanes as Track + vehicle.next;
+        let Way { local, length, .. } = tracks.ways[vehicle.next as usize];
         scene.whereabouts.set(vehicle.id as usize, track);
-        if vehicle.s >= tracks.length[track as usize] {
+        if vehicle.s >= length {
             // A step longer than the whole way across: on to the lane behind it.
             self.hand_over(scene, track, vehicle, path);
             return;
         }
-        self.add(tracks.layout.local(track), vehicle, path);
+        self.add(local as usize, vehicle, path);
     }
 
     /// Puts a vehicle that holds a way at the back of a track.
@@ -331,45 +340,46 @@ impl Part {
     /// From a way to the lane behind it, wherever that is kept.
     fn hand_over(&mut self, scene: &Scene<'_>, way: Track, mut vehicle: Vehicle, mut path: Path) {
         leave_behind(scene, way, &mut vehicle, &mut path);
-        let lane = scene.tracks.lane_after(way as usize - scene.tracks.lanes);
-        let part = scene.tracks.layout.place(lane).part;
-        self.work.handed[part as usize].push(Transfer { lane, vehicle, path });
+        let Way { to: lane, there, .. } = scene.tracks.ways[way as usize - scene.tracks.lanes];
+        self.work.handed[there.part as usize].push(Transfer { lane, vehicle, path });
     }
 
-    /// The third phase: those handed over join their lanes, junctions are cleared, claims counted.
-    pub(super) fn settle(&mut self, scene: &Scene<'_>) {
-        self.receive(scene);
-        if !self.clock.is_due() {
-            return;
-        }
-        self.clock.end();
+    /// Those who hold ways claim the crossings that they have not passed, or clear what is behind them.
+    fn claim(&mut self, scene: &Scene<'_>) {
         let claims = scene.junctions.claims_of(&self.clock);
-        for (lane, ticks) in self.work.left.drain(..) {
-            scene.storage.take_ticks(lane, ticks);
-        }
-        for (way, is_long) in self.work.cleared.drain(..) {
-            scene.junctions.clear_way(way, is_long);
-        }
         let layout = self.layout(scene.tracks);
-        for word in 0..self.work.busy.len() {
-            let mut bits = self.work.busy[word];
+        let Self { slabs, work: Work { busy, cleared, .. }, .. } = self;
+        for (word, bits) in busy.iter().enumerate() {
+            let mut bits = *bits;
             while bits != 0 {
                 let local = word * 64 + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
-                let queue = self.slabs.queue_mut(local);
+                let queue = slabs.queue_mut(local);
                 if local < layout.lanes {
-                    claims.claim_ahead(
-                        scene.tracks,
-                        queue,
-                        scene.tracks.length[layout.tracks[local] as usize],
-                    );
-                    release_cleared(scene, claims, queue);
+                    claims.claim_ahead(scene.tracks, queue, layout.measures[local].length);
+                    let behind = queue.iter_mut().rev().take_while(|vehicle| vehicle.s <= LONGEST);
+                    cleared.extend(behind.filter_map(|vehicle| clear_behind(scene, claims, vehicle)));
                 } else {
                     for vehicle in queue.iter() {
                         claims.claim(scene.tracks, vehicle, vehicle.s);
                     }
                 }
             }
+        }
+    }
+
+    /// The third phase: those handed over join their lanes, junctions are cleared.
+    pub(super) fn settle(&mut self, scene: &Scene<'_>) {
+        self.receive(scene);
+        if !self.clock.is_due() {
+            return;
+        }
+        self.clock.end();
+        for (lane, ticks) in self.work.left.drain(..) {
+            scene.storage.take_ticks(lane, ticks);
+        }
+        for (way, is_long) in self.work.cleared.drain(..) {
+            scene.junctions.clear_way(way, is_long);
         }
     }
 
@@ -400,12 +410,13 @@ impl Part {
             (vehicle.s, vehicle.v) = (rear.max(0.0), 0.0);
             self.work.counters.forced_stops += 1;
         }
+        let claims = scene.junctions.claims_of(&self.clock);
         if self.clock.is_due() {
-            self.work.busy[local / 64] |= 1 << (local % 64);
+            self.work.cleared.extend(clear_behind(scene, claims, &mut vehicle));
         } else {
             // Its rear is on the way behind until this part has its turn.
-            let length = scene.tracks.length[scene.tracks.lanes + vehicle.holding as usize];
-            scene.junctions.claims_of(&self.clock).claim(scene.tracks, &vehicle, vehicle.s + length);
+            let length = scene.tracks.ways[vehicle.holding as usize].length;
+            claims.claim(scene.tracks, &vehicle, vehicle.s + length);
         }
         self.slabs.insert(local, rank, vehicle, path);
     }
@@ -439,23 +450,20 @@ fn leave_behind(scene: &Scene<'_>, track: Track, vehicle: &mut Vehicle, path: &m
     path.before = track;
 }
 
-/// Vehicles at the beginning of a lane whose rear has left the junction give it free; until then they claim its crossings.
-fn release_cleared(scene: &Scene<'_>, claims: &Claims, queue: &mut [Vehicle]) {
-    for vehicle in queue.iter_mut().rev() {
-        if vehicle.s > LONGEST {
-            break;
-        }
-        if vehicle.holding == NONE || vehicle.holding == vehicle.next {
-            continue;
-        }
-        if vehicle.s - vehicle.length() > CLEARED || is_free_behind(scene, vehicle) {
-            scene.junctions.clear_way(vehicle.holding, vehicle.is_long());
-            vehicle.holding = NONE;
-        } else {
-            let length = scene.tracks.length[scene.tracks.lanes + vehicle.holding as usize];
-            claims.claim(scene.tracks, vehicle, vehicle.s + length);
-        }
+/// The way behind one at the beginning of a lane, if its rear has left that and it gives it free now; until then it claims the
+/// crossings there.
+fn clear_behind(scene: &Scene<'_>, claims: &Claims, vehicle: &mut Vehicle) -> Option<(u32, bool)> {
+    if vehicle.holding == NONE || vehicle.holding == vehicle.next {
+        return None;
     }
+    if vehicle.s - vehicle.length() > CLEARED || is_free_behind(scene, vehicle) {
+        let cleared = (vehicle.holding, vehicle.is_long());
+        vehicle.holding = NONE;
+        return Some(cleared);
+    }
+    let length = scene.tracks.ways[vehicle.holding as usize].length;
+    claims.claim(scene.tracks, vehicle, vehicle.s + length);
+    None
 }
 
 /// Whether a vehicle may go on although its rear is still on the way behind: its lane is too short for it ever to clear that,

@@ -7,6 +7,7 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::ops;
 
+use super::idm::{greater, less};
 use super::lookahead::BEFORE_LINE;
 use crate::vehicle::Idm;
 
@@ -108,15 +109,15 @@ pub(crate) struct Ahead {
 impl Ahead {
     pub(crate) const NOTHING: Self = Self { pressure: 0.0, bound: f64::INFINITY };
 
-    /// Takes one more thing into account, by the IDM.
+    /// Takes one more thing into account that presses so much, by the IDM.
     #[inline]
-    pub(crate) fn press(&mut self, driver: &Idm, v: f64, gap: f64, speed: f64) {
-        self.pressure = self.pressure.max(driver.pressure(v, gap, speed));
+    pub(crate) fn press(&mut self, pressure: f64) {
+        self.pressure = greater(pressure, self.pressure);
     }
 
     /// The same by any model.
     pub(crate) fn see(&mut self, model: &CarFollowing, driver: &Idm, v: f64, leader: &Leader, dt: f64) {
-        self.press(driver, v, leader.gap, leader.speed);
+        self.press(driver.pressure(v, leader.gap, leader.speed));
         let bound = match model {
             CarFollowing::Idm => return,
             CarFollowing::Krauss { .. } => safe_acceleration(driver, v, leader, dt),
@@ -129,7 +130,7 @@ impl Ahead {
     #[inline]
     pub(crate) fn respond_by_idm(&self, driver: &Idm, v: f64, (free, bend): (f64, f64)) -> f64 {
         let following = driver.respond(v, free, self.pressure);
-        if bend < free { following.min(driver.alone(v, bend)) } else { following }
+        if bend < free { less(driver.alone(v, bend), following) } else { following }
     }
 
     /// The acceleration by any model, m/s².

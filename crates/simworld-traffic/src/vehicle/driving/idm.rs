@@ -57,16 +57,28 @@ impl Idm {
     /// presses most decides; that need not be the nearest.
     #[inline]
     pub(crate) fn pressure(&self, v: f64, gap: f64, leader: f64) -> f64 {
-        let closing = v * (v - leader) / (2.0 * (self.acceleration * self.deceleration).sqrt());
-        let wanted = self.gap + (v * self.headway + closing).max(0.0);
-        wanted / gap.max(0.01)
+        self.pressure_by(self.closes_by(), v, gap, leader)
+    }
+
+    /// What the speed at which one comes nearer is measured by: twice the mean of one's accelerations, m/s².
+    #[inline]
+    pub(crate) fn closes_by(&self) -> f64 {
+        2.0 * (self.acceleration * self.deceleration).sqrt()
+    }
+
+    /// How much a leader presses one who knows by what he measures how he comes nearer.
+    #[inline]
+    pub(crate) fn pressure_by(&self, closes_by: f64, v: f64, gap: f64, leader: f64) -> f64 {
+        let closing = v * (v - leader) / closes_by;
+        let wanted = self.gap + greater(v * self.headway + closing, 0.0);
+        wanted / greater(gap, 0.01)
     }
 
     /// The acceleration under such a pressure.
     #[inline]
     pub(crate) fn respond(&self, v: f64, free: f64, pressure: f64) -> f64 {
         let interaction = self.acceleration * pressure * pressure;
-        (self.alone(v, free) - interaction).max(-self.emergency_deceleration)
+        greater(self.alone(v, free) - interaction, -self.emergency_deceleration)
     }
 
     /// The acceleration with nobody ahead: above its free speed a vehicle brakes comfortably, however far above.
@@ -74,7 +86,7 @@ impl Idm {
     pub(crate) fn alone(&self, v: f64, free: f64) -> f64 {
         let ratio = v / free;
         let square = ratio * ratio;
-        (self.acceleration * (1.0 - square * square)).max(-self.deceleration)
+        greater(self.acceleration * (1.0 - square * square), -self.deceleration)
     }
 
     /// The gap at which one follows at constant speed, m; infinite at the desired speed.
@@ -83,6 +95,18 @@ impl Idm {
         let square = ratio * ratio;
         (self.gap + v * self.headway) / (1.0 - square * square).max(0.0).sqrt()
     }
+}
+
+/// The greater of a number and a bound, which is one; a single instruction, where the language's own looks for what is none in both.
+#[inline]
+pub(crate) fn greater(number: f64, bound: f64) -> f64 {
+    if number > bound { number } else { bound }
+}
+
+/// The less of the two.
+#[inline]
+pub(crate) fn less(number: f64, bound: f64) -> f64 {
+    if number < bound { number } else { bound }
 }
 
 /// Speed and way after `dt` s at constant acceleration, without ever going backwards.

@@ -56,7 +56,7 @@ impl Part {
     /// Moves those over who are changing, and lists where they still are.
     pub(in crate::vehicle) fn shift(&mut self, scene: &Scene<'_>) {
         let mut shifting = std::mem::take(&mut self.shifting);
-        self.work.ghosts.clear();
+        self.lay_ghosts();
         let layout = self.layout(scene.tracks);
         self.show_blocks(scene);
         shifting.retain(|(local, id)| {
@@ -66,14 +66,16 @@ impl Part {
             let step = sideways(vehicle.v) * scene.at.dt;
             let left = f64::from(vehicle.shift.abs()) - step;
             vehicle.shift = if left <= 0.0 { 0.0 } else { (left as f32).copysign(vehicle.shift) };
+            let changes = vehicle.shift != 0.0;
             if let Some(old) = old_lane(scene.tracks, lane, vehicle)
                 && left > out(scene.tracks, lane, old)
             {
                 let station = vehicle.s * stretch(scene.tracks, lane, old);
                 let old = scene.tracks.layout.local(old) as u32;
-                self.work.ghosts.push(Ghost::of(vehicle, old, station));
+                let ghost = Ghost::of(vehicle, old, station);
+                self.haunt(ghost);
             }
-            vehicle.shift != 0.0
+            changes
         });
         self.shifting = shifting;
         sort(&mut self.work.ghosts);
@@ -82,11 +84,12 @@ impl Part {
     /// Lets those change who want to and may; a fifth of the lanes in each step of a tenth of a second.
     pub(in crate::vehicle) fn change_lanes(&mut self, scene: &Scene<'_>) {
         let layout = self.layout(scene.tracks);
+        let is_turn_of = scene.at.turn();
         let mut from = 0;
         while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
             let lane = layout.tracks[local];
-            if !scene.at.is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
+            if !is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
                 continue;
             }
             let mut rank = 0;
@@ -261,7 +264,7 @@ impl Part {
         scene.storage.take(lane, &vehicle, scene.config);
         scene.storage.add(target, &vehicle, scene.config);
         scene.whereabouts.set(vehicle.id as usize, target);
-        self.work.ghosts.push(Ghost::of(&vehicle, from as u32, station));
+        self.haunt(Ghost::of(&vehicle, from as u32, station));
         sort(&mut self.work.ghosts);
         self.shifting.push((to as u32, vehicle.id));
         self.slabs.insert(to, place, vehicle, path);

@@ -3,16 +3,18 @@
 mod passing;
 
 use super::following::{Ahead, Leader};
+use super::idm::{greater, less};
 use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
 use super::otherwise::Otherwise;
-use crate::vehicle::Idm;
 use crate::vehicle::foreign::strangers::{self, on_track};
 use crate::vehicle::junctions::junction::horizon;
 use crate::vehicle::junctions::precedence::{HURRY, Precedence};
 use crate::vehicle::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::ghosts::{Ghost, first_block, first_ghost};
+use crate::vehicle::tracks::layout::Measure;
 use crate::vehicle::tracks::{Obstacle, Track, Tracks};
+use crate::vehicle::{Idm, Way};
 
 /// Where a vehicle stops before a line, m.
 pub(in crate::vehicle) const BEFORE_LINE: f64 = 0.5;
@@ -44,16 +46,17 @@ pub(in crate::vehicle) struct Lane<'a> {
 }
 
 impl<'a> Lane<'a> {
+    #[inline]
     pub(in crate::vehicle) fn new(
         part: &'a Part,
         scene: &'a Scene<'a>,
-        track: Track,
+        local: usize,
         ghosts: &'a [Ghost],
     ) -> Self {
         let tracks = scene.tracks;
-        let (end, bend) = (tracks.length[track as usize], tracks.speed[track as usize]);
+        let track = part.layout(tracks).tracks[local];
+        let Measure { length: end, limit, bend } = part.layout(tracks).measures[local];
         let way = tracks.connection(track);
-        let limit = way.map_or(bend, |way| tracks.speed[tracks.lane_after(way) as usize]);
         let closes_up =
             !scene.passes.is_empty() && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up;
         Self { part, scene, track, way, end, limit, bend, ghosts, closes_up }
@@ -62,9 +65,8 @@ impl<'a> Lane<'a> {
 
 /// The accelerations of the vehicles of a track, front to back, m/s².
 pub(in crate::vehicle) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], accelerations: &mut Vec<f64>) {
-    let leaders = std::iter::once(None).chain(queue.iter().map(Some));
-    accelerations
-        .extend(queue.iter().zip(leaders).map(|(vehicle, leader)| acceleration(lane, vehicle, leader)));
+    let mut leader = None;
+    accelerations.extend(queue.iter().map(|vehicle| acceleration(lane, vehicle, leader.replace(vehicle))));
 }
 
 /// The acceleration of a vehicle, m/s².
@@ -83,7 +85,9 @@ pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leade
     match lane.way {
         Some(way) => view.across(lane, way, to_end, vehicle, leader.is_none()),
         None if vehicle.holding != vehicle.next || vehicle.next == NONE => {
-            view.stay_on(lane, vehicle, to_end, leader.is_none());
+            if minds_end(vehicle, to_end, leader.is_none()) {
+                view.stay_on(lane, vehicle, to_end, leader.is_none());
+            }
         }
         None => view.enter_junction(lane, vehicle, to_end, leader.is_none()),
     }
@@ -94,9 +98,18 @@ pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leade
     view.respond(lane, vehicle)
 }
 
+/// Whether one without leave to cross minds the end of its lane, or, as the first, who has left it but for his rear.
+#[inline]
+fn minds_end(vehicle: &Vehicle, to_end: f64, is_first: bool) -> bool {
+    let beyond = if is_first { LONGEST } else { 0.0 };
+    vehicle.next == NONE || to_end <= horizon(vehicle.v) + beyond
+}
+
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
 struct View<'a> {
     idm: &'a Idm,
+    /// By what its driver measures how he comes nearer.
+    closes_by: f64,
     /// One who is not perfect, or drives by another model than the IDM.
     otherwise: Option<Otherwise<'a>>,
     s: f64,
@@ -124,6 +137,7 @@ impl<'a> View<'a> {
         let kind = config.vehicle_type(vehicle.row);
         Self {
             idm: &kind.driver,
+            closes_by: lane.scene.closes_by[usize::from(vehicle.row)],
             otherwise: kind.drives_otherwise().then(|| Otherwise::new(lane.scene, kind, vehicle.id)),
             s: vehicle.s,
             v: vehicle.v,
@@ -147,7 +161,7 @@ impl View<'_> {
     /// The acceleration, m/s².
     #[inline]
     fn respond(&self, lane: &Lane<'_>, vehicle: &Vehicle) -> f64 {
-        let mut acceleration = self.follow_model(lane, vehicle).min(self.most);
+        let mut acceleration = less(self.follow_model(lane, vehicle), self.most);
         if self.takes_gap {
             acceleration = acceleration.max((acceleration * HURRY).min(self.idm.acceleration * HURRY));
         }
@@ -224,9 +238,12 @@ impl View<'_> {
 
     #[inline]
     fn see(&mut self, leader: Leader) {
-        self.gap = self.gap.min(leader.gap);
+        self.gap = less(leader.gap, self.gap);
         match &self.otherwise {
-            None => self.ahead.press(self.idm, self.v, leader.gap, leader.speed),
+            None => {
+                let Leader { gap, speed, .. } = leader;
+                self.ahead.press(self.idm.pressure_by(self.closes_by, self.v, gap, speed));
+            }
             Some(otherwise) => otherwise.see(&mut self.ahead, self.v, leader),
         }
     }
@@ -271,8 +288,8 @@ impl View<'_> {
 
     /// Must have a speed so far ahead, braking comfortably.
     fn slow_to(&mut self, speed: f64, distance: f64) {
-        let allowed = (speed * speed + 2.0 * self.idm.deceleration * distance.max(0.0)).sqrt();
-        self.bend = self.bend.min(allowed.max(0.5));
+        let allowed = (speed * speed + 2.0 * self.idm.deceleration * greater(distance, 0.0)).sqrt();
+        self.bend = less(greater(allowed, 0.5), self.bend);
     }
 
     /// On a lane without leave to cross: its end, and those who have left it but for their rear.
@@ -303,16 +320,17 @@ impl View<'_> {
     fn enter_junction(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, to_line: f64, is_first: bool) {
         let (tracks, way) = (lane.scene.tracks, vehicle.next as usize);
         let track = tracks.lanes + way;
-        self.slow_to(self.factor * tracks.speed[track], to_line);
+        let Way { local, length, speed, .. } = tracks.ways[way];
+        self.slow_to(self.factor * speed, to_line);
         self.mind_people(tracks, &lane.scene.sight, way, to_line);
         self.mind_older(lane, vehicle, way, -to_line);
         if !is_first {
             return;
         }
         self.let_part(lane, way, -to_line);
-        match lane.part.slabs.queue(tracks.layout.local(track as Track)).last() {
+        match lane.part.slabs.queue(local as usize).last() {
             Some(leader) => self.follow(to_line + leader.s - leader.length(), leader.v),
-            None => self.after_way(lane.scene, way, to_line + tracks.length[track]),
+            None => self.after_way(lane.scene, way, to_line + length),
         }
         if let Some(obstacle) = first_obstacle(&lane.scene.sight, track as Track, 0.0, 0.0) {
             self.follow(to_line + obstacle.near, obstacle.v);
@@ -361,8 +379,8 @@ impl View<'_> {
 
     /// The lane behind a junction: its last vehicle, and its end, where one may have to stop.
     fn after_way(&mut self, scene: &Scene<'_>, way: usize, to_lane: f64) {
-        let lane = scene.tracks.lane_after(way);
-        let last = scene.tail(lane);
+        let Way { to: lane, there, .. } = scene.tracks.ways[way];
+        let last = scene.tail_at(there);
         if !last.is_none() {
             self.follow(to_lane + last.rear + self.closer, last.v);
         }
@@ -374,6 +392,9 @@ impl View<'_> {
 
     /// Stops before strips with people on them; `offset` is the distance to the beginning of the way, negative on it.
     fn mind_people(&mut self, tracks: &Tracks, sight: &Sight<'_>, way: usize, offset: f64) {
+        if !tracks.ways[way].has_strips {
+            return;
+        }
         for strip in &tracks.strips[way] {
             let distance = offset + strip.stop;
             // Whoever is on the strip already drives on and clears it.

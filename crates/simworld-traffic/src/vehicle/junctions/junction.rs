@@ -169,8 +169,7 @@ impl Part {
                 self.grant(scene, &mut requests);
                 until = junctions.find(|end| *end > local).unwrap_or(layout.lanes);
             }
-            let track = layout.tracks[local];
-            let end = scene.tracks.length[track as usize];
+            let (track, end) = (layout.tracks[local], layout.measures[local].length);
             self.revoke(scene, local, end);
             self.collect(scene, local, end, &mut requests);
             if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {
@@ -338,7 +337,7 @@ pub(in crate::vehicle) fn horizon(v: f64) -> f64 {
 
 /// Whether a vehicle would ask in vain, and has not stood for so long that anybody does anything about it.
 fn waits_at_red(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
-    let signal = scene.tracks.ways[vehicle.next as usize].signal;
+    let signal = scene.tracks.signals[vehicle.next as usize];
     vehicle.stood <= TOO_LONG && scene.aspect(signal) == Aspect::Red && !scene.sirens.is_on(vehicle.id)
 }
 

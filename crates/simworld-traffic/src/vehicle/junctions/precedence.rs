@@ -15,7 +15,6 @@ use crate::vehicle::driving::lookahead::BEFORE_LINE;
 use crate::vehicle::foreign::strangers;
 use crate::vehicle::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use crate::vehicle::part::Part;
-use crate::vehicle::tracks::Track;
 use crate::vehicle::tracks::conflicts::Conflict;
 use crate::vehicle::{Idm, Way};
 
@@ -115,7 +114,7 @@ impl Asker {
             v: vehicle.v,
             length: vehicle.length(),
             acceleration: row.driver.acceleration * hurry,
-            speed: row.free_speed(scene.config, vehicle.factor, tracks.speed[tracks.lanes + way]),
+            speed: row.free_speed(scene.config, vehicle.factor, tracks.ways[way].speed),
             delay: 0.0,
         }
     }
@@ -238,7 +237,7 @@ impl Part {
             let before = &self.slabs.queue(tracks.layout.local(lane))[rank];
             return (before.next != EXIT).then(|| Asker::new(scene, before, end - before.s));
         }
-        let on_way = self.slabs.queue(tracks.layout.local((tracks.lanes + way) as Track)).last()?;
+        let on_way = self.slabs.queue(tracks.ways[way].local as usize).last()?;
         Some(Asker::on_way(scene, on_way, way, on_way.s))
     }
 
@@ -251,8 +250,7 @@ impl Part {
         overtaken: &mut Vec<(u32, u32)>,
     ) -> bool {
         let tracks = scene.tracks;
-        let speed = tracks.speed[tracks.lanes + conflict.way as usize];
-        let from = tracks.ways[conflict.way as usize].from;
+        let Way { from, speed, .. } = tracks.ways[conflict.way as usize];
         let limit = tracks.speed[from as usize];
         let mut fits = true;
         self.holders(scene, conflict.way, |holder| {
@@ -299,8 +297,7 @@ impl Part {
     /// All who hold a way: before it, on it, and with their rears still on it.
     fn holders(&self, scene: &Scene<'_>, way: u32, mut see: impl FnMut(&Holder)) {
         let tracks = scene.tracks;
-        let track = tracks.lanes + way as usize;
-        let Way { from, to, .. } = tracks.ways[way as usize];
+        let Way { from, local, there, length: way_length, .. } = tracks.ways[way as usize];
         let end = tracks.length[from as usize];
         let before = self.slabs.queue(tracks.layout.local(from)).iter().enumerate();
         for (rank, vehicle) in before.take_while(|(_, vehicle)| vehicle.has_leave_or_exits()) {
@@ -308,12 +305,12 @@ impl Part {
                 see(&Holder::of(vehicle, vehicle.s - end, rank));
             }
         }
-        for vehicle in self.slabs.queue(tracks.layout.local(track as Track)) {
+        for vehicle in self.slabs.queue(local as usize) {
             see(&Holder::of(vehicle, vehicle.s, 0));
         }
-        let tail = scene.tail(to);
+        let tail = scene.tail_at(there);
         if tail.way == way {
-            let (length, rear) = (f64::from(tail.length), tail.rear + tracks.length[track]);
+            let (length, rear) = (f64::from(tail.length), tail.rear + way_length);
             let front = rear + length;
             see(&Holder { front, length, v: tail.v, acceleration: 0.0, granted: tail.granted, rank: 0 });
         }
@@ -345,12 +342,13 @@ impl Part {
         let driver = &scene.config.vehicle_type(vehicle.row).driver;
         let hardest = RELIES * driver.emergency_deceleration;
         let sure = vehicle.v * (vehicle.v / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
-        for conflict in tracks.conflicts_with(way, |other| scene.junctions.is_held(other)) {
+        let is_held = |other| scene.junctions.is_held(other);
+        for conflict in tracks.conflicts_held(way, &self.work.held, is_held) {
             let to_zone = conflict.own.enter() - front;
             if to_zone > horizon(vehicle.v) {
                 continue;
             }
-            let speed = tracks.speed[tracks.lanes + conflict.way as usize];
+            let speed = tracks.ways[conflict.way as usize].speed;
             self.holders(scene, conflict.way, |holder| {
                 let concerns = conflict.pairs.has(vehicle.length(), holder.length);
                 if !concerns || !is_before(holder.granted, vehicle.granted) {
@@ -358,7 +356,7 @@ impl Part {
                 }
                 let rear = holder.rear();
                 if conflict.merges && rear >= conflict.other.enter() {
-                    let ends = (tracks.length[tracks.lanes + way], conflict.other_length(scene));
+                    let ends = (tracks.ways[way].length, conflict.other_length(scene));
                     mind(Precedence::Follow { gap: ends.0 - front - (ends.1 - rear), speed: holder.v });
                 } else if rear < conflict.other.passed() && to_zone > -0.5 {
                     // So that it is gone when one could no longer stop for it.
@@ -405,7 +403,7 @@ pub(in crate::vehicle) enum Precedence {
 
 impl Conflict {
     fn other_length(&self, scene: &Scene<'_>) -> f64 {
-        scene.tracks.length[scene.tracks.lanes + self.way as usize]
+        scene.tracks.ways[self.way as usize].length
     }
 }
 

@@ -42,6 +42,9 @@ impl Claims {
 
     /// Claims the crossings on a way beyond a rear.
     pub(in crate::vehicle) fn claim_behind(&self, tracks: &Tracks, way: u32, rear: f64) {
+        if !tracks.ways[way as usize].has_strips {
+            return;
+        }
         for strip in tracks.strips[way as usize].iter().filter(|strip| rear < strip.end) {
             self.0.add(strip.crossing as usize, 1);
         }

@@ -5,7 +5,7 @@ use super::tail::Tail;
 use crate::vehicle::driving::lane_change::{old_lane, out, stretch};
 use crate::vehicle::manager::{STANDING, Scene, Vehicle};
 use crate::vehicle::part::Part;
-use crate::vehicle::tracks::{Obstacle, Track};
+use crate::vehicle::tracks::{Obstacle, Track, Way};
 
 /// From so far one sees that one's lane is blocked, m.
 pub(in crate::vehicle) const BLOCK_SEEN: f64 = 80.0;
@@ -42,7 +42,7 @@ impl Part {
         for (lane, from, to) in &scene.closures.blocks {
             if self.layout(scene.tracks).tracks.get(scene.tracks.layout.local(*lane)) == Some(lane) {
                 let (lane, length) = (scene.tracks.layout.local(*lane) as u32, to - from);
-                self.work.ghosts.push(Ghost { lane, rear: *from, length, v: 0.0, is_fixed: true });
+                self.haunt(Ghost { lane, rear: *from, length, v: 0.0, is_fixed: true });
             }
         }
         // Bodies that are on no lane of the traffic's own are in the way of who changes, and one passes those that stand.
@@ -51,7 +51,7 @@ impl Part {
             let place = scene.tracks.layout.place(track);
             if place.part == self.number() && (track as usize) < scene.tracks.lanes {
                 let (lane, length) = (place.local, far - near);
-                self.work.ghosts.push(Ghost { lane, rear: near, length, v, is_fixed: stands });
+                self.haunt(Ghost { lane, rear: near, length, v, is_fixed: stands });
             }
         }
     }
@@ -66,8 +66,31 @@ impl Part {
         block.into_iter().chain(halts).min_by(f64::total_cmp)
     }
 
+    /// Lists one more body.
+    pub(in crate::vehicle) fn haunt(&mut self, ghost: Ghost) {
+        let word = ghost.lane as usize / 64;
+        if self.work.haunted.len() <= word {
+            self.work.haunted.resize(word + 1, 0);
+        }
+        self.work.haunted[word] |= 1 << (ghost.lane % 64);
+        self.work.ghosts.push(ghost);
+    }
+
+    /// Forgets all of them.
+    pub(in crate::vehicle) fn lay_ghosts(&mut self) {
+        self.work.ghosts.clear();
+        self.work.haunted.fill(0);
+    }
+
     /// Bodies that have not quite left a lane, and what blocks it, from back to front.
+    #[inline]
     pub(in crate::vehicle) fn ghosts(&self, lane: usize) -> &[Ghost] {
+        // Most lanes have none, and each who may change lanes asks for those of several.
+        let word = self.work.haunted.get(lane / 64).copied().unwrap_or_default();
+        if word >> (lane % 64) & 1 == 0 { &[] } else { self.ghosts_of(lane) }
+    }
+
+    fn ghosts_of(&self, lane: usize) -> &[Ghost] {
         let ghosts = &self.work.ghosts;
         let from = ghosts.partition_point(|ghost| (ghost.lane as usize) < lane);
         let count = ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == lane).count();
@@ -120,11 +143,11 @@ impl Part {
         way: u32,
     ) -> impl Iterator<Item = (f64, f64, f64)> {
         let tracks = scene.tracks;
-        let track = tracks.lanes + way as usize;
-        let on_way = self.slabs.queue(tracks.layout.local(track as Track)).iter();
+        let Way { local, there, length, .. } = tracks.ways[way as usize];
+        let on_way = self.slabs.queue(local as usize).iter();
         // Of those behind the way only the last can still have its rear on it.
-        let tail = scene.tail(tracks.lane_after(way as usize));
-        let rear = tail.rear + tracks.length[track];
+        let tail = scene.tail_at(there);
+        let rear = tail.rear + length;
         let behind = (tail.way == way).then_some((rear + f64::from(tail.length), rear, tail.v));
         on_way.map(|other| (other.s, other.s - other.length(), other.v)).chain(behind)
     }

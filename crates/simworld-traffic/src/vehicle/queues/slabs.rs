@@ -101,6 +101,12 @@ impl Slabs {
         (&mut self.vehicles[range.clone()], &mut self.paths[range])
     }
 
+    /// Whether a track has vehicles.
+    #[inline]
+    pub(crate) fn is_occupied(&self, track: usize) -> bool {
+        self.occupied[track / 64] >> (track % 64) & 1 == 1
+    }
+
     /// The first track with vehicles, from a number on.
     #[inline]
     pub(crate) fn occupied_from(&self, track: usize) -> Option<usize> {

@@ -24,11 +24,23 @@ pub(crate) struct Place {
     pub(crate) local: u32,
 }
 
+/// What everybody on a track goes by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Measure {
+    /// Its length, m.
+    pub(crate) length: f64,
+    /// The speeds that the law allows, on ways that of the lane behind, and that its bends allow as well, m/s.
+    pub(crate) limit: f64,
+    pub(crate) bend: f64,
+}
+
 /// The tracks of one part.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PartLayout {
     /// The tracks by their number in the part.
     pub(crate) tracks: Vec<Track>,
+    /// Of each of them, so that they lie in the order in which they are gone through.
+    pub(crate) measures: Vec<Measure>,
     /// How many of them are lanes.
     pub(crate) lanes: usize,
     /// The lanes of each intersection, as ranges of their numbers in the part, ascending.
@@ -74,6 +86,19 @@ impl Layout {
         }
         layout.close(&mut ways);
         layout
+    }
+
+    /// Takes up length and speed of each track, m and m/s.
+    pub(super) fn measure(&mut self, network: &RoadNetwork, length: &[f64], speed: &[f64]) {
+        for part in &mut self.parts {
+            let measure = |track: &Track| {
+                let track = *track as usize;
+                let way = track.checked_sub(network.lanes.len()).map(|way| &network.connections[way]);
+                let limit = way.map_or(speed[track], |way| speed[way.to.index()]);
+                Measure { length: length[track], limit, bend: speed[track] }
+            };
+            part.measures = part.tracks.iter().map(measure).collect();
+        }
     }
 
     /// Gives the last part its ways.

@@ -29,6 +29,11 @@ const LONG_ENOUGH: u8 = 2;
 const AT_ONCE: u8 = 3;
 const WELL: u8 = 4;
 
+/// Whether one can count on a change of lanes on a lane of that length.
+pub(super) fn is_sure(length: f64) -> bool {
+    length >= SURE
+}
+
 impl Tracks {
     /// How well a way leads on to the legs `after` the one to which it leads; for who has none, whether one can drive on there.
     pub(super) fn leads_on_to(&self, way: u32, after: &[Leg]) -> u8 {
@@ -59,17 +64,12 @@ impl Tracks {
 
     /// The same in the choice between lanes for what comes later: where one can count on a change there is nothing to choose.
     pub(in crate::vehicle) fn serves(&self, way: u32, after: &[Leg]) -> u8 {
-        if self.is_sure(way) { WELL } else { self.leads_on_to(way, after) }
+        if self.sure[way as usize] { WELL } else { self.leads_on_to(way, after) }
     }
 
     /// By how many grades another way may serve better than one, whatever comes after it.
     pub(in crate::vehicle) fn most_better_than(&self, way: u32) -> u8 {
-        if self.is_sure(way) { 0 } else { WELL - BLIND }
-    }
-
-    /// Whether one can count on a change of lanes behind a way.
-    fn is_sure(&self, way: u32) -> bool {
-        self.length[self.lane_after(way as usize) as usize] >= SURE
+        if self.sure[way as usize] { 0 } else { WELL - BLIND }
     }
 
     /// The way from a lane on to a leg and those after it. None if it leads to a short lane from which one could not go on, and one can still

@@ -10,6 +10,7 @@ pub(super) mod conflicts;
 pub(super) mod lanes;
 pub(super) mod layout;
 pub(super) mod leading;
+pub(super) mod meeting;
 pub(super) mod onward;
 pub(super) mod swept;
 
@@ -18,7 +19,9 @@ use std::sync::Arc;
 use beside::Beside;
 use closures::Closures;
 use conflicts::{Conflict, conflicts};
-use layout::Layout;
+use layout::{Layout, Place};
+use leading::is_sure;
+use meeting::{Held, Meetings};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
@@ -72,7 +75,8 @@ impl Obstacle {
     }
 }
 
-/// What a step asks of a way across an intersection, apart from its lists.
+/// What a step asks of a way across an intersection, apart from its lists: a line of the cache.
+#[repr(align(64))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Way {
     pub(crate) from: Track,
@@ -85,6 +89,14 @@ pub(crate) struct Way {
     pub(crate) stops: bool,
     /// Whether it turns and gives way.
     pub(crate) turns_by_gaps: bool,
+    /// Whether it leads over crossings.
+    pub(super) has_strips: bool,
+    /// Its number in its part, and where the lane is kept to which it leads.
+    pub(super) local: u32,
+    pub(super) there: Place,
+    /// Its length, m, and the speed allowed on it by law and curvature, m/s.
+    pub(super) length: f64,
+    pub(super) speed: f64,
 }
 
 /// The network as drivers see it.
@@ -102,10 +114,14 @@ pub(crate) struct Tracks {
     pub(crate) speed: Vec<f64>,
     /// The ways across, by connection.
     pub(crate) ways: Vec<Way>,
+    /// Their signal groups again, which are asked for in each step of a red light, and whether one can count on a change of lanes
+    /// behind each.
+    pub(super) signals: Vec<u32>,
+    sure: Vec<bool>,
     /// The connections whose vehicles could touch one on this connection, and where.
     pub(crate) conflicts: Ragged<Conflict>,
-    /// Their numbers alone: one asks for all of them who is there, and hardly ever for where they meet.
-    meeting: Ragged<u32>,
+    /// A bit for each of them: one asks for all of them who is there, and hardly ever for where they meet.
+    meetings: Meetings,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Ragged<(u32, f64)>,
     /// Ways so near to each connection that a long vehicle on either touches whoever is on the other in the turn, and those on
@@ -144,30 +160,41 @@ impl Tracks {
         };
         let lane_lengths = network.lanes.iter().map(|lane| lane.length);
         let way_lengths = network.connections.iter().map(|connection| connection.length);
-        let length = lane_lengths.chain(way_lengths).collect();
+        let length: Vec<f64> = lane_lengths.chain(way_lengths).collect();
         let lane_speeds = network.lanes.iter().map(|lane| lane.speed_limit);
         let way_speeds = network.connections.iter().enumerate().map(|(index, connection)| {
             let limit = network.lanes[connection.to.index()].speed_limit;
             let tightest = if through[index].is_empty() { curve_speed } else { bends_speed };
             limit.min(tightest(connection, config.lateral_acceleration))
         });
-        let speed = lane_speeds.chain(way_speeds).collect();
+        let speed: Vec<f64> = lane_speeds.chain(way_speeds).collect();
         let connections = 0..network.connections.len();
         let beside = lanes::beside(&network);
         let Beside { short, tight, narrow } = Beside::new(&network, config);
         let conflicts = conflicts(&network, config, short);
-        let meeting = |way: usize| conflicts[way].iter().map(|conflict| conflict.way).collect();
+        let mut layout = Layout::new(&network);
+        layout.measure(&network, &length, &speed);
+        let strips: Ragged<Strip> = connections.clone().map(|index| strips(&network, index)).collect();
+        let way = |index: usize| {
+            let track = network.lanes.len() + index;
+            let ends = (layout.local(track as Track), layout.place(network.connections[index].to.0));
+            let has_strips = !strips[index].is_empty();
+            way(&network, index, ends, (length[track], speed[track]), has_strips)
+        };
+        let ways: Vec<Way> = connections.clone().map(way).collect();
         Self {
             lanes: network.lanes.len(),
-            length,
-            speed,
-            ways: network.connections.iter().map(|connection| way(&network, connection)).collect(),
-            meeting: connections.clone().map(meeting).collect(),
+            signals: ways.iter().map(|way| way.signal).collect(),
+            sure: ways.iter().map(|way| is_sure(length[way.to as usize])).collect(),
+            ways,
+            meetings: Meetings::new(&layout, network.lanes.len(), &conflicts),
             conflicts,
-            siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
+            siblings: connections.map(|index| siblings(&network, index)).collect(),
             tight,
             narrow,
-            strips: connections.map(|index| strips(&network, index)).collect(),
+            strips,
+            length,
+            speed,
             kerb: kerb::places(&network, &beside),
             beside,
             opposite: lanes::opposite(&network),
@@ -177,7 +204,7 @@ impl Tracks {
             exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
             router: Router::new(&network),
             clusters: Clusters::new(&network, config),
-            layout: Layout::new(&network),
+            layout,
             through,
             network,
             drawn,
@@ -218,15 +245,15 @@ impl Tracks {
             && self.conflicts[way].is_empty()
     }
 
-    /// Where a way meets those of others that are so.
+    /// Where a way meets those that somebody holds: `held` says which of its part these are.
     #[inline]
-    pub(super) fn conflicts_with(
+    pub(super) fn conflicts_held(
         &self,
         way: usize,
-        is_so: impl Fn(u32) -> bool,
+        held: &Held,
+        is_held: impl Fn(u32) -> bool,
     ) -> impl Iterator<Item = &Conflict> {
-        let meeting = self.meeting[way].iter().zip(&self.conflicts[way]);
-        meeting.filter(move |(other, _)| is_so(**other)).map(|(_, conflict)| conflict)
+        self.meetings.held(way, &self.conflicts[way], held, is_held)
     }
 
     /// Distance between the middles of two lanes side by side, m.
@@ -318,7 +345,14 @@ fn exits(network: &RoadNetwork, lane: &Lane) -> Vec<(u32, Leg)> {
     lane.outgoing.iter().map(|way| (way.0, leg(way))).collect()
 }
 
-fn way(network: &RoadNetwork, connection: &Connection) -> Way {
+fn way(
+    network: &RoadNetwork,
+    index: usize,
+    (local, there): (usize, Place),
+    (length, speed): (f64, f64),
+    has_strips: bool,
+) -> Way {
+    let connection = &network.connections[index];
     Way {
         from: connection.from.0,
         to: connection.to.0,
@@ -326,6 +360,11 @@ fn way(network: &RoadNetwork, connection: &Connection) -> Way {
         crosses_oncoming: connection.turn == network.driving_side.turn_across(),
         stops: network.stops_at(connection.from),
         turns_by_gaps: connection.turn != Turn::Straight && !connection.yields_to.is_empty(),
+        has_strips,
+        local: local as u32,
+        there,
+        length,
+        speed,
     }
 }
 

@@ -78,7 +78,7 @@ impl VehicleManager {
             &self.parts[part as usize].clock
         });
         // While two parts are not at one time, nobody knows who comes. Those that go in rounds are once in each.
-        let is_turn = mind.at.is_turn_of(lane) || clocks.iter().any(|clock| clock.is_far());
+        let is_turn = mind.at.turn()(lane) || clocks.iter().any(|clock| clock.is_far());
         if !is_turn || clocks.iter().any(|clock| clock.waited() > 0.0) {
             return 0;
         }
