@@ -13,13 +13,16 @@ use crate::parts::in_parts;
 const TILE: u32 = 3;
 /// Cells of a tile.
 const CELLS: usize = 1 << (2 * TILE);
+/// There are no more buckets than this, so that their numbers leave a byte free: tens of millions of people share them.
+const BUCKETS: usize = 1 << 24;
 /// Where people are few a cell is so many times as wide as they see: then most see nothing of the cells beside their own.
 const WIDER: f64 = 8.0;
 /// People for whom as many as this are in their own wide cell, on the whole, are a crowd.
 const CROWD: u64 = 12;
 
-/// A person as the others see it.
+/// A person as the others see it: a half of a line of the cache, and not over two of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(align(32))]
 pub(super) struct Seen {
     /// Where it is, m.
     pub(super) at: [f64; 2],
@@ -82,7 +85,7 @@ pub(super) struct Grid {
     marks: Vec<u8>,
     /// The number of the one of each rank.
     numbers: Vec<u32>,
-    /// The rank of each in a crowd, else the bucket.
+    /// The rank of each in a crowd; before that, and where few are, the bucket, with the mark in the highest byte.
     ranks: Vec<u32>,
     /// How far one sees, m.
     reach: f64,
@@ -120,7 +123,6 @@ impl Grid {
         if self.is_crowd {
             self.line_up(workers, person);
         }
-        self.mark(workers);
     }
 
     /// Finds the bucket of everybody, and how many are in each, two places after its own. Returns the sum over all of how many are in
@@ -128,18 +130,19 @@ impl Grid {
     fn count(&mut self, workers: &dyn Workers) -> u64 {
         let Self { starts, seen, ranks, per_metre, is_crowd, .. } = self;
         let cells = if *is_crowd { seen.len() } else { seen.len() / 2 };
-        let tiles = cells.div_ceil(CELLS).next_power_of_two();
+        let tiles = cells.div_ceil(CELLS).next_power_of_two().min(BUCKETS / CELLS);
         ranks.resize(seen.len(), 0);
         in_parts(workers, ranks, &|_, first, buckets| {
             for (to, seen) in buckets.iter_mut().zip(&seen[first..]) {
-                *to = bucket(cell(Point2::from(seen.at), *per_metre), tiles) as u32;
+                let cell = cell(Point2::from(seen.at), *per_metre);
+                *to = bucket(cell, tiles) as u32 | u32::from(mark_of(cell)) << BUCKETS.ilog2();
             }
         });
         starts.clear();
         starts.resize(tiles * CELLS + 2, 0);
         let mut in_own_bucket = 0;
         for bucket in ranks {
-            let count = &mut starts[*bucket as usize + 2];
+            let count = &mut starts[*bucket as usize % BUCKETS + 2];
             // One more, and one more for each of those before: squares are sums of odd numbers.
             in_own_bucket += 2 * u64::from(*count) + 1;
             *count += 1;
@@ -149,8 +152,9 @@ impl Grid {
 
     /// Finds who has each rank, by the buckets of all.
     fn sort(&mut self) {
-        let Self { starts, numbers, ranks, .. } = self;
+        let Self { starts, numbers, marks, ranks, .. } = self;
         numbers.resize(ranks.len(), 0);
+        marks.resize(ranks.len(), 0);
         let mut sum = 0;
         for start in starts.iter_mut() {
             sum += *start;
@@ -158,8 +162,9 @@ impl Grid {
         }
         // Filling moves each start to that of the next bucket, which is its place.
         for (bucket, number) in ranks.iter().zip(0..) {
-            let start = &mut starts[*bucket as usize + 1];
+            let start = &mut starts[*bucket as usize % BUCKETS + 1];
             numbers[*start as usize] = number;
+            marks[*start as usize] = (bucket >> BUCKETS.ilog2()) as u8;
             *start += 1;
         }
     }
@@ -175,17 +180,6 @@ impl Grid {
                 *seen = Seen::of(&person(*number as usize), *number);
             }
         });
-    }
-
-    fn mark(&mut self, workers: &dyn Workers) {
-        let mut marks = std::mem::take(&mut self.marks);
-        marks.resize(self.seen.len(), 0);
-        in_parts(workers, &mut marks, &|_, first, marks| {
-            for (mark, rank) in marks.iter_mut().zip(first..) {
-                *mark = mark_of(cell(self.position(self.place(rank)), self.per_metre));
-            }
-        });
-        self.marks = marks;
     }
 
     /// Whether so many are together that those of a cell should be taken one after the other: they have the same around them.

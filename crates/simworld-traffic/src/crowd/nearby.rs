@@ -182,6 +182,13 @@ impl Nearby {
 
     /// Finds who matters to somebody: who is within reach and in view, or so close that one could run into them.
     pub(super) fn find(&mut self, rules: &Rules, grid: &Grid, around: &Around, me: &Me) {
+        if around.count == 0 {
+            // As for most where few are.
+            self.count = 0;
+            self.blocks.clear();
+            self.close.clear();
+            return;
+        }
         let middle = around.cell.map_or(me.person.position, |cell| grid.middle(cell));
         let own = single(me.person.position - middle);
         let close = rules.close(me.wish.speed) as f32;
