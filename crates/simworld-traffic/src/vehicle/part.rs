@@ -1,5 +1,7 @@
 //! One part of the network: its vehicles, and how they move along its tracks and out of it.
 
+use std::hint::black_box;
+
 use serde::{Deserialize, Serialize};
 
 use super::clock::Clock;
@@ -128,11 +130,13 @@ impl Part {
             *tails = vec![Tail::default(); lanes];
         }
         shown.drain(..).for_each(|lane| tails[lane as usize] = Tail::default());
-        for lane in self.slabs.occupied().take_while(|lane| *lane < lanes) {
+        let mut from = 0;
+        while let Some(lane) = self.slabs.next_at_hand(from).filter(|lane| *lane < lanes) {
+            from = lane + 1;
             let [first, ..] = self.slabs.queue(lane) else { continue };
             let Some(last) = self.slabs.queue(lane).last() else { continue };
             let closes_up = !passes.is_empty() && passes.binary_search(&first.id).is_ok();
-            tails[lane] = Tail { closes_up, ..Tail::of(last) };
+            tails[lane] = Tail::of(last).closing_up(closes_up);
             shown.push(lane as u32);
         }
     }
@@ -197,7 +201,12 @@ impl Part {
         let layout = self.layout(scene.tracks);
         let mut steered = &self.work.steered[..];
         let mut ghosts = &self.work.ghosts[..];
+        let mut word = usize::MAX;
         for local in self.slabs.occupied() {
+            if self.clock.is_long() && local / 64 != word {
+                word = local / 64;
+                self.touch_ahead(scene, word);
+            }
             let from = ghosts.iter().position(|ghost| ghost.lane as usize >= local).unwrap_or(ghosts.len());
             let until = from + ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == local).count();
             let track = layout.tracks[local];
@@ -216,6 +225,18 @@ impl Part {
             }
         }
         self.work.accelerations = accelerations;
+    }
+
+    /// Reads the tails that the first of the lanes of a word of bits will look at, one right after the other. In a long step far from all
+    /// interest nobody else has looked at them lately, and processors wait for many such places of the memory at once.
+    fn touch_ahead(&self, scene: &Scene<'_>, word: usize) {
+        let (tracks, layout) = (scene.tracks, self.layout(scene.tracks));
+        let tail = |local: usize| {
+            let way = tracks.ways.get(self.slabs.queue(local).first()?.next as usize)?;
+            Some(scene.tail(way.to).granted)
+        };
+        let lanes = (word * 64..layout.lanes).take(64);
+        black_box(lanes.filter_map(tail).fold(0, |all, granted| all ^ granted));
     }
 
     fn integrate(&mut self, scene: &Scene<'_>) {
@@ -353,6 +374,7 @@ impl Part {
         let layout = self.layout(scene.tracks);
         for word in 0..self.work.busy.len() {
             let mut bits = self.work.busy[word];
+            self.slabs.touch(word, bits);
             while bits != 0 {
                 let local = word * 64 + bits.trailing_zeros() as usize;
                 bits &= bits - 1;

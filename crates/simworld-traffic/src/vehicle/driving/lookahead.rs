@@ -54,8 +54,8 @@ impl<'a> Lane<'a> {
         let (end, bend) = (tracks.length[track as usize], tracks.speed[track as usize]);
         let way = tracks.connection(track);
         let limit = way.map_or(bend, |way| tracks.speed[tracks.lane_after(way) as usize]);
-        let closes_up =
-            !scene.passes.is_empty() && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up;
+        let closes_up = !scene.passes.is_empty()
+            && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up();
         Self { part, scene, track, way, end, limit, bend, ghosts, closes_up }
     }
 }
