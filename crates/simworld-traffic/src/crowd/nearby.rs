@@ -80,12 +80,14 @@ impl Around {
         if grid.is_crowd() {
             for mut window in grid.around(at) {
                 grid.open(&mut window);
-                self.look_into(grid, middle, &window, |rank| Some(rank));
+                self.look_into(grid, middle, &window, Some);
             }
         } else {
             // There is seldom anybody else, and whoever looks need not be looked up.
             let other = |rank| Some(grid.place(rank)).filter(|other| *other != place);
-            windows.iter().for_each(|window| self.look_into(grid, middle, window, other));
+            for window in windows {
+                self.look_into(grid, middle, window, other);
+            }
         }
         // The last block is filled up with nobody, out of sight.
         self.make_room(LANES);

@@ -130,9 +130,7 @@ impl Part {
             *tails = vec![Tail::default(); lanes];
         }
         shown.drain(..).for_each(|lane| tails[lane as usize] = Tail::default());
-        let mut from = 0;
-        while let Some(lane) = self.slabs.next_at_hand(from).filter(|lane| *lane < lanes) {
-            from = lane + 1;
+        for lane in self.slabs.occupied().take_while(|lane| *lane < lanes) {
             let [first, ..] = self.slabs.queue(lane) else { continue };
             let Some(last) = self.slabs.queue(lane).last() else { continue };
             let closes_up = !passes.is_empty() && passes.binary_search(&first.id).is_ok();
@@ -201,12 +199,7 @@ impl Part {
         let layout = self.layout(scene.tracks);
         let mut steered = &self.work.steered[..];
         let mut ghosts = &self.work.ghosts[..];
-        let mut word = usize::MAX;
         for local in self.slabs.occupied() {
-            if self.clock.is_long() && local / 64 != word {
-                word = local / 64;
-                self.touch_ahead(scene, word);
-            }
             let from = ghosts.iter().position(|ghost| ghost.lane as usize >= local).unwrap_or(ghosts.len());
             let until = from + ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == local).count();
             let track = layout.tracks[local];
@@ -227,16 +220,17 @@ impl Part {
         self.work.accelerations = accelerations;
     }
 
-    /// Reads the tails that the first of the lanes of a word of bits will look at, one right after the other. In a long step far from all
-    /// interest nobody else has looked at them lately, and processors wait for many such places of the memory at once.
-    fn touch_ahead(&self, scene: &Scene<'_>, word: usize) {
+    /// Reads what the first of the lanes of a word of bits will look at: the way on, its signal and the tail behind it, one right after
+    /// the other. In a long step far from all interest nobody else has looked at them lately, and processors wait for many such places of
+    /// the memory at once.
+    pub(super) fn touch_ahead(&self, scene: &Scene<'_>, word: usize) {
         let (tracks, layout) = (scene.tracks, self.layout(scene.tracks));
-        let tail = |local: usize| {
+        let ahead = |local: usize| {
             let way = tracks.ways.get(self.slabs.queue(local).first()?.next as usize)?;
-            Some(scene.tail(way.to).granted)
+            Some(scene.tail(way.to).granted ^ scene.aspect(way.signal) as u32)
         };
         let lanes = (word * 64..layout.lanes).take(64);
-        black_box(lanes.filter_map(tail).fold(0, |all, granted| all ^ granted));
+        black_box(lanes.filter_map(ahead).fold(0, |all, seen| all ^ seen));
     }
 
     fn integrate(&mut self, scene: &Scene<'_>) {

@@ -83,7 +83,7 @@ impl Part {
     pub(in crate::vehicle) fn change_lanes(&mut self, scene: &Scene<'_>) {
         let layout = self.layout(scene.tracks);
         let mut from = 0;
-        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
+        while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
             let lane = layout.tracks[local];
             if !scene.at.is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {

@@ -163,9 +163,13 @@ impl Part {
         let mut requests = std::mem::take(&mut self.work.requests);
         requests.clear();
         let mut junctions = layout.junctions.iter().map(|lanes| lanes.end as usize);
-        let (mut until, mut from) = (0, 0);
+        let (mut until, mut from, mut word) = (0, 0, usize::MAX);
         while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
+            if self.clock.is_long() && local / 64 != word {
+                word = local / 64;
+                self.touch_ahead(scene, word);
+            }
             if local >= until {
                 self.grant(scene, &mut requests);
                 until = junctions.find(|end| *end > local).unwrap_or(layout.lanes);
