@@ -71,7 +71,6 @@ pub struct Traffic {
     placed: Placed,
     // Buffers kept from step to step.
     walkers: Vec<u32>,
-    claims: Vec<u32>,
     obstacles: Vec<vehicle::Obstacle>,
     /// Bodies that are on no track.
     gathered: Vec<Foreign>,
@@ -151,7 +150,6 @@ impl Traffic {
             ways,
             state: State { vehicles, pedestrians, conditions: config.conditions, ..State::default() },
             placed,
-            claims: Vec::new(),
             obstacles: Vec::new(),
             gathered: Vec::new(),
             workers: Box::new(Alone),
@@ -359,8 +357,6 @@ impl Traffic {
             outline::outline(body, self.config.walking.radius, &mut self.bodies);
         }
         let State { vehicles, pedestrians, counters, steps, seconds, interest, .. } = &mut self.state;
-        self.claims.clear();
-        self.claims.extend(vehicles.claims());
         pedestrians.entered.clear();
         pedestrians.ended.clear();
         let (aspects, tracks, vehicles) = (&self.signals.aspects, &self.tracks, &*vehicles);
@@ -368,7 +364,7 @@ impl Traffic {
             network: &tracks.network,
             ways: &self.ways,
             aspects,
-            claims: &self.claims,
+            claims: &|crossing| vehicles.claims(crossing),
             gap: &|crossing| self.gaps.time(tracks, vehicles, aspects, crossing),
             threats: &self.threats,
         };

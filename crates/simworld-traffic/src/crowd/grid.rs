@@ -13,13 +13,16 @@ use crate::parts::in_parts;
 const TILE: u32 = 3;
 /// Cells of a tile.
 const CELLS: usize = 1 << (2 * TILE);
+/// There are no more buckets than this, so that their numbers leave a byte free: tens of millions of people share them.
+const BUCKETS: usize = 1 << 24;
 /// Where people are few a cell is so many times as wide as they see: then most see nothing of the cells beside their own.
 const WIDER: f64 = 8.0;
 /// People for whom as many as this are in their own wide cell, on the whole, are a crowd.
 const CROWD: u64 = 12;
 
-/// A person as the others see it.
+/// A person as the others see it: a half of a line of the cache, and not over two of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(align(32))]
 pub(super) struct Seen {
     /// Where it is, m.
     pub(super) at: [f64; 2],
@@ -41,6 +44,26 @@ impl Seen {
     }
 }
 
+/// Cells of a tile, one beside the other: their buckets, and once it is open the ranks of those who are found there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    begin: u32,
+    end: u32,
+    mark: u8,
+}
+
+impl Window {
+    /// The ranks of those who are found there; of those in far tiles as well.
+    pub(super) fn ranks(&self) -> Range<usize> {
+        self.begin as usize..self.end as usize
+    }
+
+    /// The [mark](Grid::marks) of those who are there and not in a far tile.
+    pub(super) fn mark(&self) -> u8 {
+        self.mark
+    }
+}
+
 /// The cell farthest from the middle.
 const FARTHEST: f64 = (1_u64 << 40) as f64;
 
@@ -48,14 +71,21 @@ const FARTHEST: f64 = (1_u64 << 40) as f64;
 pub(super) type Cell = (i64, i64);
 
 /// A hash grid in which the people of a cell are neighbours in memory, and so are the cells of a tile.
+///
+/// Those of a crowd lie in its own order. Where people are few they lie in that of their numbers: they were given by place, and
+/// nobody has to be moved.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Grid {
-    /// The people of bucket i are `seen[starts[i]..starts[i + 1]]`.
+    /// The people of bucket i have the ranks from `starts[i]` to `starts[i + 1]`.
     starts: Vec<u32>,
+    /// Everybody, by rank in a crowd, else by number.
     seen: Vec<Seen>,
-    /// A number of the tile of each of them, by which those of others that share its buckets are told apart without a look at them.
+    /// By rank a number of the tile of each of them, by which those of others that share its buckets are told apart without a look at
+    /// them.
     marks: Vec<u8>,
-    /// Where each of them is found in `seen`; before that, the bucket of each.
+    /// The number of the one of each rank.
+    numbers: Vec<u32>,
+    /// The rank of each in a crowd; before that, and where few are, the bucket, with the mark in the highest byte.
     ranks: Vec<u32>,
     /// How far one sees, m.
     reach: f64,
@@ -77,69 +107,79 @@ impl Grid {
         reach: f64,
     ) {
         self.reach = reach;
-        let mut ranks = std::mem::take(&mut self.ranks);
-        ranks.resize(count, 0);
+        self.seen.resize(count, Seen::default());
+        in_parts(workers, &mut self.seen, &|_, first, seen| {
+            for (seen, index) in seen.iter_mut().zip(first..) {
+                *seen = Seen::of(&person(index), index as u32);
+            }
+        });
         for (is_crowd, wider) in [(false, WIDER), (true, 1.0)] {
             (self.is_crowd, self.per_metre) = (is_crowd, 1.0 / (reach * wider));
-            self.count(workers, &mut ranks, person);
-            let in_own_cell: u64 = self.starts.iter().map(|count| u64::from(*count).pow(2)).sum();
-            if in_own_cell <= CROWD * count as u64 {
+            if self.count(workers) <= CROWD * count as u64 {
                 break;
             }
         }
-        self.sort(&mut ranks);
-        self.ranks = ranks;
-        in_parts(workers, &mut self.seen, &|_, _, seen| {
-            for seen in seen {
-                *seen = Seen::of(&person(seen.index as usize), seen.index);
-            }
-        });
-        let mut marks = std::mem::take(&mut self.marks);
-        marks.resize(count, 0);
-        in_parts(workers, &mut marks, &|_, first, marks| {
-            for (mark, rank) in marks.iter_mut().zip(first..) {
-                *mark = mark_of(cell(self.position(rank), self.per_metre));
-            }
-        });
-        self.marks = marks;
-    }
-
-    /// Finds the bucket of everybody, and how many are in each, a place after its own.
-    fn count(
-        &mut self,
-        workers: &dyn Workers,
-        buckets: &mut [u32],
-        person: &(impl Fn(usize) -> Person + Sync),
-    ) {
-        let (tiles, per_metre) = (buckets.len().div_ceil(CELLS).next_power_of_two(), self.per_metre);
-        in_parts(workers, buckets, &|_, first, buckets| {
-            for (to, index) in buckets.iter_mut().zip(first..) {
-                *to = bucket(cell(person(index).position, per_metre), tiles) as u32;
-            }
-        });
-        self.starts.clear();
-        self.starts.resize(tiles * CELLS + 1, 0);
-        for bucket in buckets {
-            self.starts[*bucket as usize + 1] += 1;
+        self.sort();
+        if self.is_crowd {
+            self.line_up(workers, person);
         }
     }
 
-    /// Finds the rank of everybody from their bucket, and says who is found at each rank.
-    fn sort(&mut self, ranks: &mut [u32]) {
-        self.seen.resize(ranks.len(), Seen::default());
-        for index in 1..self.starts.len() {
-            self.starts[index] += self.starts[index - 1];
+    /// Finds the bucket of everybody, and how many are in each, two places after its own. Returns the sum over all of how many are in
+    /// their own.
+    fn count(&mut self, workers: &dyn Workers) -> u64 {
+        let Self { starts, seen, ranks, per_metre, is_crowd, .. } = self;
+        let cells = if *is_crowd { seen.len() } else { seen.len() / 2 };
+        let tiles = cells.div_ceil(CELLS).next_power_of_two().min(BUCKETS / CELLS);
+        ranks.resize(seen.len(), 0);
+        in_parts(workers, ranks, &|_, first, buckets| {
+            for (to, seen) in buckets.iter_mut().zip(&seen[first..]) {
+                let cell = cell(Point2::from(seen.at), *per_metre);
+                *to = bucket(cell, tiles) as u32 | u32::from(mark_of(cell)) << BUCKETS.ilog2();
+            }
+        });
+        starts.clear();
+        starts.resize(tiles * CELLS + 2, 0);
+        let mut in_own_bucket = 0;
+        for bucket in ranks {
+            let count = &mut starts[*bucket as usize % BUCKETS + 2];
+            // One more, and one more for each of those before: squares are sums of odd numbers.
+            in_own_bucket += 2 * u64::from(*count) + 1;
+            *count += 1;
         }
-        // Filling moves each start to the start of the next bucket; moving them up by one puts them right.
-        for (rank, index) in ranks.iter_mut().zip(0..) {
-            let start = &mut self.starts[*rank as usize];
-            *rank = *start;
+        in_own_bucket
+    }
+
+    /// Finds who has each rank, by the buckets of all.
+    fn sort(&mut self) {
+        let Self { starts, numbers, marks, ranks, .. } = self;
+        numbers.resize(ranks.len(), 0);
+        marks.resize(ranks.len(), 0);
+        let mut sum = 0;
+        for start in starts.iter_mut() {
+            sum += *start;
+            *start = sum;
+        }
+        // Filling moves each start to that of the next bucket, which is its place.
+        for (bucket, number) in ranks.iter().zip(0..) {
+            let start = &mut starts[*bucket as usize % BUCKETS + 1];
+            numbers[*start as usize] = number;
+            marks[*start as usize] = (bucket >> BUCKETS.ilog2()) as u8;
             *start += 1;
-            self.seen[*rank as usize].index = index;
         }
-        let buckets = self.starts.len() - 1;
-        self.starts.copy_within(0..buckets, 1);
-        self.starts[0] = 0;
+    }
+
+    /// Puts those of a crowd in its order.
+    fn line_up(&mut self, workers: &dyn Workers, person: &(impl Fn(usize) -> Person + Sync)) {
+        let Self { seen, numbers, ranks, .. } = self;
+        for (number, rank) in numbers.iter().zip(0..) {
+            ranks[*number as usize] = rank;
+        }
+        in_parts(workers, seen, &|_, first, seen| {
+            for (seen, number) in seen.iter_mut().zip(&numbers[first..]) {
+                *seen = Seen::of(&person(*number as usize), *number);
+            }
+        });
     }
 
     /// Whether so many are together that those of a cell should be taken one after the other: they have the same around them.
@@ -147,19 +187,24 @@ impl Grid {
         self.is_crowd
     }
 
-    /// Everybody, those of a cell one after the other.
+    /// Everybody: in a crowd those of a cell one after the other, else in the order of their numbers.
     pub(super) fn seen(&self) -> &[Seen] {
         &self.seen
     }
 
-    /// Where the one of this rank is, m.
-    pub(super) fn position(&self, rank: usize) -> Point2 {
-        Point2::from(self.seen[rank].at)
+    /// Where the one of this place among them is, m.
+    pub(super) fn position(&self, place: usize) -> Point2 {
+        Point2::from(self.seen[place].at)
     }
 
-    /// Where somebody is found among them.
-    pub(super) fn rank(&self, index: usize) -> usize {
-        self.ranks[index] as usize
+    /// The place among them of the one of a rank.
+    pub(super) fn place(&self, rank: usize) -> usize {
+        if self.is_crowd { rank } else { self.numbers[rank] as usize }
+    }
+
+    /// The place among them of the one of a number.
+    pub(super) fn place_of(&self, index: usize) -> usize {
+        if self.is_crowd { self.ranks[index] as usize } else { index }
     }
 
     /// The marks of those of these ranks.
@@ -167,9 +212,9 @@ impl Grid {
         &self.marks[ranks]
     }
 
-    /// The cells around a place that one may see from there, or, in a crowd, from anywhere in its cell: ranges of
-    /// [`seen`](Self::seen), with the [mark](Self::marks) of those who are there and not in a far tile. Some of them may be out of reach.
-    pub(super) fn around(&self, at: Point2) -> impl Iterator<Item = (Range<usize>, u8)> {
+    /// The cells around a place that one may see from there, or, in a crowd, from anywhere in its cell. Some of them may be out of
+    /// reach.
+    pub(super) fn around(&self, at: Point2) -> impl Iterator<Item = Window> {
         let tiles = self.starts.len() / CELLS;
         let [low, high] = self.window(at);
         // Where the next tile begins, if it does before the last column.
@@ -177,11 +222,24 @@ impl Grid {
         let parts = [(low.0, high.0.min(next - 1)), (next, high.0)];
         (low.1..=high.1).flat_map(move |row| {
             parts.into_iter().filter(|(first, last)| first <= last).map(move |(first, last)| {
-                let begin = bucket((first, row), tiles);
-                let end = begin + (last - first) as usize + 1;
-                (self.starts[begin] as usize..self.starts[end] as usize, mark_of((first, row)))
+                let begin = bucket((first, row), tiles) as u32;
+                Window { begin, end: begin + (last - first) as u32 + 1, mark: mark_of((first, row)) }
             })
         })
+    }
+
+    /// Finds out which ranks those of a window have.
+    pub(super) fn open(&self, window: &mut Window) {
+        window.begin = self.starts[window.begin as usize];
+        window.end = self.starts[window.end as usize];
+    }
+
+    /// Reads what whoever looks into an open window looks at first: for many one right after the other, so that processors wait for many
+    /// such places of the memory at once. The value means nothing.
+    pub(super) fn touch(&self, window: &Window) -> u32 {
+        let first = window.begin as usize;
+        self.numbers.get(first).copied().unwrap_or_default()
+            ^ self.marks.get(first).copied().map_or(0, u32::from)
     }
 
     /// The first and the last of the cells around a place.
@@ -192,14 +250,6 @@ impl Grid {
         }
         let reach = Vector2::repeat(self.reach);
         [cell(at - reach, self.per_metre), cell(at + reach, self.per_metre)]
-    }
-
-    /// Reads what [`around`](Self::around) will of the cells around a place: for many one right after the other, so that processors
-    /// wait for many such places of the memory at once. The value means nothing.
-    pub(super) fn touch(&self, at: Point2) -> u32 {
-        let tiles = self.starts.len() / CELLS;
-        let [low, high] = self.window(at);
-        (low.1..=high.1).fold(0, |all, row| all ^ self.starts[bucket((low.0, row), tiles)])
     }
 
     /// The cell, as wide as one sees, in which a place lies.
@@ -219,7 +269,7 @@ impl Grid {
 
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
-        (self.starts.capacity() + self.ranks.capacity()) * 4
+        (self.starts.capacity() + self.numbers.capacity() + self.ranks.capacity()) * 4
             + self.marks.capacity()
             + self.seen.capacity() * size_of::<Seen>()
     }
@@ -272,11 +322,12 @@ mod tests {
         assert_eq!(grid.is_crowd(), is_crowd);
         let mut in_vain = 0;
         for at in places {
-            let ranks = grid.around(*at).flat_map(|(ranks, mark)| {
-                let here = grid.marks(ranks.clone()).iter().map(move |own| *own == mark);
-                ranks.zip(here).filter(|(_, here)| *here)
+            let ranks = grid.around(*at).flat_map(|mut window| {
+                grid.open(&mut window);
+                let here = grid.marks(window.ranks()).iter().map(move |own| *own == window.mark());
+                window.ranks().zip(here).filter(|(_, here)| *here)
             });
-            let mut found: Vec<u32> = ranks.map(|(rank, _)| grid.seen()[rank].index).collect();
+            let mut found: Vec<u32> = ranks.map(|(rank, _)| grid.seen()[grid.place(rank)].index).collect();
             let looked_at = found.len();
             found.retain(|index| (places[*index as usize] - at).norm() <= REACH);
             in_vain += looked_at - found.len();

@@ -14,7 +14,7 @@ use std::f32::consts::LOG2_E;
 use simworld_core::geometry::{Point2, Vector2};
 
 use super::exp::exp2;
-use super::grid::{Cell, Grid};
+use super::grid::{Cell, Grid, Window};
 use super::model::Rules;
 use super::{Person, Wish};
 
@@ -57,8 +57,8 @@ pub(super) struct Around {
     /// Places relative to the middle of the cell, m, in whole blocks.
     x: Vec<f32>,
     y: Vec<f32>,
-    /// Their ranks in the grid.
-    ranks: Vec<u32>,
+    /// Their places among all in the grid.
+    places: Vec<u32>,
 }
 
 impl Around {
@@ -67,33 +67,54 @@ impl Around {
         self.cell = None;
     }
 
-    /// Looks around the place of the one of a rank; in a crowd not again for those of one cell, one after the other.
-    pub(super) fn look(&mut self, grid: &Grid, at: Point2, rank: usize) {
-        let (cell, is_crowd) = (grid.cell(at), grid.is_crowd());
-        if is_crowd && self.cell == Some(cell) {
+    /// Looks into windows around somebody, who has a place among all; in a crowd into all cells around theirs, and not again for those
+    /// of one cell, one after the other.
+    pub(super) fn look(&mut self, grid: &Grid, at: Point2, place: usize, windows: &[Window]) {
+        let cell = grid.cell(at);
+        if grid.is_crowd() && self.cell == Some(cell) {
             return;
         }
-        // Elsewhere there is seldom anybody else, and whoever looks need not be looked up.
-        let is_seen = |other: usize| is_crowd | (other != rank);
         self.cell = Some(cell);
         self.count = 0;
         let middle = grid.middle(cell);
-        for (ranks, mark) in grid.around(at) {
-            self.make_room(ranks.len());
-            let marks = grid.marks(ranks.clone());
-            for ((seen, own), rank) in grid.seen()[ranks.clone()].iter().zip(marks).zip(ranks) {
-                // Who is elsewhere is not looked at.
-                if (*own == mark) & is_seen(rank) {
-                    self.x[self.count] = (seen.at[0] - middle.x) as f32;
-                    self.y[self.count] = (seen.at[1] - middle.y) as f32;
-                    self.ranks[self.count] = rank as u32;
-                    self.count += 1;
-                }
+        if grid.is_crowd() {
+            for mut window in grid.around(at) {
+                grid.open(&mut window);
+                self.look_into(grid, middle, &window, Some);
+            }
+        } else {
+            // There is seldom anybody else, and whoever looks need not be looked up.
+            let other = |rank| Some(grid.place(rank)).filter(|other| *other != place);
+            for window in windows {
+                self.look_into(grid, middle, window, other);
             }
         }
         // The last block is filled up with nobody, out of sight.
         self.make_room(LANES);
         self.x[self.count..self.count + LANES].fill(f32::INFINITY);
+    }
+
+    /// Looks into an open window: at those whose ranks have places that matter.
+    fn look_into(
+        &mut self,
+        grid: &Grid,
+        middle: Point2,
+        window: &Window,
+        place: impl Fn(usize) -> Option<usize>,
+    ) {
+        let ranks = window.ranks();
+        self.make_room(ranks.len());
+        for (own, rank) in grid.marks(ranks.clone()).iter().zip(ranks) {
+            // Who is elsewhere is not looked at.
+            let here = if *own == window.mark() { place(rank) } else { None };
+            if let Some(place) = here {
+                let seen = &grid.seen()[place];
+                self.x[self.count] = (seen.at[0] - middle.x) as f32;
+                self.y[self.count] = (seen.at[1] - middle.y) as f32;
+                self.places[self.count] = place as u32;
+                self.count += 1;
+            }
+        }
     }
 
     /// Makes room for so many more.
@@ -102,7 +123,7 @@ impl Around {
         if end > self.x.len() {
             self.x.resize(2 * end, 0.0);
             self.y.resize(2 * end, 0.0);
-            self.ranks.resize(2 * end, 0);
+            self.places.resize(2 * end, 0);
         }
     }
 }
@@ -110,8 +131,8 @@ impl Around {
 /// Somebody who looks around.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Me {
-    /// Rank in the grid.
-    pub(super) rank: usize,
+    /// Place among all in the grid.
+    pub(super) place: usize,
     pub(super) person: Person,
     pub(super) wish: Wish,
 }
@@ -141,7 +162,7 @@ pub(super) struct Nearby {
     /// How many they are.
     count: usize,
     blocks: Vec<Block>,
-    /// Ranks of those who could be run into before the next decision, wherever they are.
+    /// Places of those who could be run into before the next decision, wherever they are.
     pub(super) close: Vec<u32>,
 }
 
@@ -163,6 +184,13 @@ impl Nearby {
 
     /// Finds who matters to somebody: who is within reach and in view, or so close that one could run into them.
     pub(super) fn find(&mut self, rules: &Rules, grid: &Grid, around: &Around, me: &Me) {
+        if around.count == 0 {
+            // As for most where few are.
+            self.count = 0;
+            self.blocks.clear();
+            self.close.clear();
+            return;
+        }
         let middle = around.cell.map_or(me.person.position, |cell| grid.middle(cell));
         let own = single(me.person.position - middle);
         let close = rules.close(me.wish.speed) as f32;
@@ -171,9 +199,9 @@ impl Nearby {
         self.take(grid, around, own, near);
         if !grid.is_crowd() {
             // In the order in which those of a crowd are found: whom one heeds first makes a difference.
-            self.close.sort_unstable_by_key(|rank| {
-                let (column, row) = grid.cell(grid.position(*rank as usize));
-                (row, column, *rank)
+            self.close.sort_unstable_by_key(|place| {
+                let (column, row) = grid.cell(grid.position(*place as usize));
+                (row, column, *place)
             });
         }
     }
@@ -181,18 +209,18 @@ impl Nearby {
     /// Finds where those who matter are among those around.
     fn choose(&mut self, rules: &Rules, around: &Around, me: &Me, [own_x, own_y]: Pair, near: f32) {
         let (wish, ahead) = (single(me.wish.direction), single(me.person.direction));
-        let (reach, me) = ((rules.reach * rules.reach) as f32, me.rank as u32);
+        let (reach, me) = ((rules.reach * rules.reach) as f32, me.place as u32);
         let room = around.count.next_multiple_of(LANES);
         if self.matter.len() < room {
             self.matter.resize(2 * room, 0);
             self.chosen.resize(2 * room, 0);
         }
-        let places = around.x[..room].iter().zip(&around.y[..room]).zip(&around.ranks[..room]);
-        for (matters, ((x, y), rank)) in self.matter[..room].iter_mut().zip(places) {
+        let places = around.x[..room].iter().zip(&around.y[..room]).zip(&around.places[..room]);
+        for (matters, ((x, y), place)) in self.matter[..room].iter_mut().zip(places) {
             let (x, y) = (x - own_x, y - own_y);
             let square = x * x + y * y;
             let in_view = (wish[0] * x + wish[1] * y >= 0.0) | (ahead[0] * x + ahead[1] * y >= 0.0);
-            *matters = u32::from((((square <= reach) & in_view) | (square <= near)) & (*rank != me));
+            *matters = u32::from((((square <= reach) & in_view) | (square <= near)) & (*place != me));
         }
         self.count = 0;
         for (matter, first) in blocks(&self.matter[..room]).zip((0..).step_by(LANES)) {
@@ -210,15 +238,15 @@ impl Nearby {
     fn take(&mut self, grid: &Grid, around: &Around, own: Pair, near: f32) {
         self.close.clear();
         self.blocks.clear();
-        for places in self.chosen[..self.count].chunks(LANES) {
+        for chosen in self.chosen[..self.count].chunks(LANES) {
             let mut block = Block { x: [f32::NAN; LANES], ..Block::default() };
-            for (place, lane) in places.iter().zip(0..LANES) {
-                let place = *place as usize;
-                let rank = around.ranks[place];
-                let seen = &grid.seen()[rank as usize];
-                let (x, y) = (around.x[place] - own[0], around.y[place] - own[1]);
+            for (chosen, lane) in chosen.iter().zip(0..LANES) {
+                let chosen = *chosen as usize;
+                let place = around.places[chosen];
+                let seen = &grid.seen()[place as usize];
+                let (x, y) = (around.x[chosen] - own[0], around.y[chosen] - own[1]);
                 if x * x + y * y <= near {
-                    self.close.push(rank);
+                    self.close.push(place);
                 }
                 (block.x[lane], block.y[lane]) = (x, y);
                 [block.facing_x[lane], block.facing_y[lane]] = seen.facing;

@@ -2,12 +2,13 @@
 
 use std::hint::black_box;
 use std::mem::take;
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use simworld_core::geometry::Vector2;
 use simworld_core::net::Workers;
 
-use super::grid::Grid;
+use super::grid::{Grid, Window};
 use super::model::{Bound, Rules, safe};
 use super::nearby::{Around, Me, Nearby};
 use super::{AnticipationVelocity, Herd, Look, REACH, Steering, Wall};
@@ -39,9 +40,10 @@ struct Scratch {
     around: Around,
     near: Nearby,
     looks: Vec<Option<Look>>,
-    /// The walls near those of a block, and where those of each end.
+    /// The walls near those of a block, the windows into which they look, and where those of each end.
     walls: Vec<Wall>,
-    ends: Vec<usize>,
+    windows: Vec<Window>,
+    ends: Vec<[usize; 2]>,
     bounds: Vec<Bound>,
 }
 
@@ -97,8 +99,7 @@ impl Crowd {
 
     /// What the last call of [`decide`](Self::decide) made of somebody, if they decided.
     pub(crate) fn decision(&self, index: usize) -> Option<&Decision> {
-        let place = if self.grid.is_crowd() { self.grid.rank(index) } else { index };
-        Some(&self.decisions[place]).filter(|decision| decision.facing != [0.0; 2])
+        Some(&self.decisions[self.grid.place_of(index)]).filter(|decision| decision.facing != [0.0; 2])
     }
 }
 
@@ -107,7 +108,9 @@ impl Scratch {
     fn roomy() -> Self {
         let (near, walls) = (Nearby::roomy(64), Vec::with_capacity(16 * BLOCK));
         let (looks, ends) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
-        Self { near, looks, walls, ends, bounds: Vec::with_capacity(48), ..Self::default() }
+        // Of three cells in a row those of two tiles are two windows.
+        let (windows, bounds) = (Vec::with_capacity(6 * BLOCK), Vec::with_capacity(48));
+        Self { near, looks, walls, windows, ends, bounds, ..Self::default() }
     }
 
     /// Lets those of a block decide, from one on: by rank in a crowd, so that those of a cell look around once, else by
@@ -120,33 +123,43 @@ impl Scratch {
         first: usize,
         decisions: &mut [Decision],
     ) {
-        self.looks.clear();
-        self.walls.clear();
-        self.ends.clear();
-        let (places, by_rank) = (first..first + decisions.len(), grid.is_crowd());
-        let number = |place: usize| if by_rank { grid.seen()[place].index as usize } else { place };
-        black_box(places.clone().fold(0, |all, place| all ^ herd.touch(number(place))));
-        for place in places.clone() {
-            self.looks.push(herd.look(number(place), &mut self.walls));
-            self.ends.push(self.walls.len());
-        }
-        let (looks, walls, ends) = (take(&mut self.looks), take(&mut self.walls), take(&mut self.ends));
-        if !by_rank {
-            black_box(looks.iter().flatten().fold(0, |all, look| all ^ grid.touch(look.person.position)));
-            // Who walks beside somebody lies beside them.
-            black_box(places.clone().fold(0, |all, place| all ^ grid.seen()[grid.rank(place)].index));
-        }
-        let mut begin = 0;
+        let places = first..first + decisions.len();
+        self.prepare(grid, herd, places.clone());
+        let (looks, walls) = (take(&mut self.looks), take(&mut self.walls));
+        let (windows, ends) = (take(&mut self.windows), take(&mut self.ends));
+        let mut begin = [0, 0];
         for (((decision, place), look), end) in decisions.iter_mut().zip(places).zip(&looks).zip(&ends) {
-            let walls = &walls[begin..*end];
+            let (walls, windows) = (&walls[begin[0]..end[0]], &windows[begin[1]..end[1]]);
             begin = *end;
-            let rank = if by_rank { place } else { grid.rank(place) };
             *decision = match look {
-                Some(look) => self.decide_one(rules, grid, herd, rank, look, walls),
+                Some(look) => self.decide_one(rules, grid, herd, place, look, (walls, windows)),
                 None => Decision::default(),
             };
         }
-        (self.looks, self.walls, self.ends) = (looks, walls, ends);
+        (self.looks, self.walls, self.windows, self.ends) = (looks, walls, windows, ends);
+    }
+
+    /// Finds out what those of a block want and, where people are few, who may be around them.
+    fn prepare(&mut self, grid: &Grid, herd: &impl Herd, places: Range<usize>) {
+        let Self { looks, walls, windows, ends, .. } = self;
+        looks.clear();
+        walls.clear();
+        windows.clear();
+        ends.clear();
+        let by_rank = grid.is_crowd();
+        let number = |place: usize| if by_rank { grid.seen()[place].index as usize } else { place };
+        black_box(places.clone().fold(0, |all, place| all ^ herd.touch(number(place))));
+        for place in places {
+            let look = herd.look(number(place), walls);
+            let looks_around = look.as_ref().filter(|look| !by_rank && look.wish.speed > 0.0);
+            windows.extend(looks_around.into_iter().flat_map(|look| grid.around(look.person.position)));
+            looks.push(look);
+            ends.push([walls.len(), windows.len()]);
+        }
+        for window in windows.iter_mut() {
+            grid.open(window);
+        }
+        black_box(windows.iter().fold(0, |all, window| all ^ grid.touch(window)));
     }
 
     fn decide_one(
@@ -154,9 +167,9 @@ impl Scratch {
         rules: &Rules,
         grid: &Grid,
         herd: &impl Herd,
-        rank: usize,
+        place: usize,
         look: &Look,
-        walls: &[Wall],
+        (walls, windows): (&[Wall], &[Window]),
     ) -> Decision {
         let Look { person, wish, hold } = *look;
         let facing = |direction: Vector2| [direction.x as f32, direction.y as f32];
@@ -164,8 +177,8 @@ impl Scratch {
             return Decision { velocity: Vector2::zeros(), facing: facing(person.direction) };
         }
         let rules = rules.holding(hold);
-        let me = Me { rank, person, wish };
-        self.around.look(grid, person.position, rank);
+        let me = Me { place, person, wish };
+        self.around.look(grid, person.position, place, windows);
         self.near.find(&rules, grid, &self.around, &me);
         let (wanted, direction) = rules.decide(&me, &mut self.near, walls);
         self.bind(&rules, grid, herd, &me, walls, hold);
@@ -179,9 +192,9 @@ impl Scratch {
         let wall =
             |wall: &Wall| Bound { toward: wall.toward, room: (wall.distance - rules.model.radius).max(0.0) };
         self.bounds.extend(walls.iter().map(wall));
-        for rank in &self.near.close {
-            let seen = &grid.seen()[*rank as usize];
-            let offset = grid.position(*rank as usize) - me.person.position;
+        for place in &self.near.close {
+            let seen = &grid.seen()[*place as usize];
+            let offset = grid.position(*place as usize) - me.person.position;
             let distance = offset.norm();
             // Two in the same place, by error, part along their wishes.
             let toward = if distance > 0.0 { offset / distance } else { -me.wish.direction };

@@ -17,7 +17,7 @@ pub(crate) struct Sight<'a> {
     pub(crate) ways: &'a WaypointGraph,
     pub(crate) aspects: &'a [Aspect],
     /// Vehicles about to pass each crossing.
-    pub(crate) claims: &'a [u32],
+    pub(crate) claims: &'a (dyn Fn(CrossingId) -> u32 + Sync),
     /// When the next vehicle comes to a crossing that has no leave to pass it yet, s.
     pub(crate) gap: &'a (dyn Fn(CrossingId) -> f64 + Sync),
     /// When the next of those comes to each crossing who are not the traffic's own and may not stop, s.
@@ -110,7 +110,7 @@ impl Pedestrian {
     fn may_cross(&self, by: &Deciding<'_>) -> Option<bool> {
         let sight = by.sight;
         let crossing = &sight.network.crossings[self.crossing.index()];
-        if sight.claims[self.crossing.index()] > 0 {
+        if (sight.claims)(self.crossing) > 0 {
             return None;
         }
         // The critical gap of the Highway Capacity Manual: the way across at one's speed, and a margin.

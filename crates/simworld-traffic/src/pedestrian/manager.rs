@@ -46,9 +46,11 @@ pub(crate) struct PedestrianManager {
     pub(crate) ended: Vec<Walk>,
     #[serde(skip)]
     crowd: Crowd,
-    /// Those who matter between the turns of those far away; none while all do.
+    /// Those who matter between the turns of those far away, ascending, while it is known who they are.
     #[serde(skip)]
-    subset: Option<Vec<u32>>,
+    subset: Vec<u32>,
+    #[serde(skip)]
+    knows_subset: bool,
     #[serde(skip)]
     scratch: Vec<Mutex<Scratch>>,
 }
@@ -58,6 +60,8 @@ pub(crate) struct PedestrianManager {
 struct Scratch {
     weights: Vec<f64>,
     events: Vec<Event>,
+    /// Those of its part who are not far away, at a turn.
+    nearer: Vec<u32>,
 }
 
 /// Memory is not state.
@@ -126,37 +130,53 @@ impl PedestrianManager {
         self.scratch.resize_with(PARTS, Mutex::default);
         self.decide(sight, around, streams, turn);
         self.tell(time, counters);
-        self.choose_subset(turn);
+        self.choose_subset(turn, around.interest.is_some());
         self.walk(sight, around, turn, until_turn, time.dt);
-        for (index, (waiting, at_kerb)) in self.waiting.iter_mut().zip(&self.at_kerb).enumerate() {
-            // Most kerbs are empty, and what shows there need not be looked up.
-            let may_walk = *at_kerb > 0 && sight.shows_walk(CrossingId::from_index(index));
-            *waiting = if may_walk { *at_kerb } else { 0 };
-        }
+        let Self { waiting, at_kerb, .. } = self;
+        in_parts(around.workers, waiting, &|_, first, waiting| {
+            for ((waiting, at_kerb), index) in waiting.iter_mut().zip(&at_kerb[first..]).zip(first..) {
+                // Most kerbs are empty, and what shows there need not be looked up.
+                let may_walk = *at_kerb > 0 && sight.shows_walk(CrossingId::from_index(index));
+                *waiting = if may_walk { *at_kerb } else { 0 };
+            }
+        });
     }
 
     /// Where to go on, and whether to cross.
     fn decide(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, streams: Stream, turn: bool) {
-        let Self { walkers, journeys, scratch, waited, .. } = self;
+        let Self { walkers, journeys, scratch, waited, subset, knows_subset, .. } = self;
         let waited = if turn { std::mem::take(waited) } else { 0.0 };
         let (config, interest) = (around.config, around.interest);
+        let some = Some(&subset[..]).filter(|_| *knows_subset && !turn);
         in_parts(around.workers, walkers, &|part, first, walkers| {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
-            let Scratch { weights, events } = &mut *scratch;
-            for (walker, index) in walkers.iter_mut().zip(first as u32..) {
-                if !walker.is_present() {
-                    continue;
+            let Scratch { weights, events, nearer } = &mut *scratch;
+            let mut decide = |walker: &mut Pedestrian, index: u32| {
+                if walker.is_present() && walker.decides(turn) && walker.is_due(sight.ways) {
+                    let by = Deciding { index, sight, config, streams, journeys };
+                    walker.decide(&by, weights, events);
                 }
-                if turn {
+            };
+            if let Some(some) = some {
+                // Others need not be looked at.
+                let begin = some.partition_point(|index| (*index as usize) < first);
+                for index in &some[begin..] {
+                    let Some(walker) = walkers.get_mut(*index as usize - first) else { break };
+                    decide(walker, *index);
+                }
+                return;
+            }
+            for (walker, index) in walkers.iter_mut().zip(first as u32..) {
+                if turn && walker.is_present() {
                     if walker.range == Range::Far {
                         walker.go(waited);
                     }
                     walker.range = range(walker.position, interest);
+                    if interest.is_some() && walker.range != Range::Far {
+                        nearer.push(index);
+                    }
                 }
-                if walker.decides(turn) && walker.is_due(sight.ways) {
-                    let by = Deciding { index, sight, config, streams, journeys };
-                    walker.decide(&by, weights, events);
-                }
+                decide(walker, index);
             }
         });
     }
@@ -194,25 +214,32 @@ impl PedestrianManager {
 
     /// Who came or left may have been among those who matter.
     pub(super) fn forget_subset(&mut self) {
-        self.subset = None;
+        self.knows_subset = false;
     }
 
-    /// Between turns, those who decide and those whom they may see.
-    fn choose_subset(&mut self, turn: bool) {
+    /// Between turns, those who decide and those whom they may see: at a turn it is found out for the steps before the next.
+    fn choose_subset(&mut self, turn: bool, some_are_far: bool) {
+        let Self { walkers, scratch, subset, knows_subset, .. } = self;
+        if !turn && *knows_subset {
+            return;
+        }
+        subset.clear();
         if turn {
-            self.subset = None;
-        } else if self.subset.is_none() {
+            let parts = scratch.iter_mut().map(|part| part.get_mut().unwrap_or_else(PoisonError::into_inner));
+            subset.extend(parts.flat_map(|part| part.nearer.drain(..)));
+            subset.retain(|index| walkers[*index as usize].is_present());
+        } else {
             let matters =
                 |(_, walker): &(u32, &Pedestrian)| walker.range != Range::Far && walker.is_present();
-            self.subset = Some((0..).zip(&self.walkers).filter(matters).map(|(index, _)| index).collect());
+            subset.extend((0..).zip(&*walkers).filter(matters).map(|(index, _)| index));
         }
+        *knows_subset = !turn || some_are_far;
     }
 
     fn walk(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, turn: bool, until_turn: f64, dt: f64) {
         let Self { walkers, crowd, subset, .. } = self;
-        let some = subset.as_deref().unwrap_or_default();
-        let idle = subset.is_some() && some.is_empty();
-        if !idle {
+        let some = if turn { &[][..] } else { subset };
+        if turn || !some.is_empty() {
             let Surroundings { workers, config, bodies, .. } = around;
             let herd = Streets { walkers, subset: some, bodies, ways: sight.ways, turn, until_turn, dt };
             crowd.decide(*workers, (&config.walking, config.people.steering), &herd);
@@ -241,7 +268,7 @@ impl PedestrianManager {
             + self.crowd.bytes()
             + self.journeys.bytes()
             + self.free.capacity() * 4
-            + self.subset.as_ref().map_or(0, Vec::capacity) * 4
+            + self.subset.capacity() * 4
     }
 
     /// Whether a saved state is one of this network.

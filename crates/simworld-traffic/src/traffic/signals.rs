@@ -5,6 +5,7 @@ use simworld_core::traffic::SignalTiming;
 
 use super::{State, Traffic};
 use crate::TrafficError;
+use crate::parts::in_parts;
 use crate::signal::{ByHand, check_timing};
 
 impl Traffic {
@@ -93,10 +94,13 @@ impl Traffic {
         }
         self.signals.step(controllers, by_hand, *seconds, detectors.demand(), dt);
         let State { aspects, shown, .. } = &mut self.state;
-        for ((old, new), shown) in aspects.iter_mut().zip(&self.signals.aspects).zip(shown) {
-            *shown = if old == new { *shown + dt } else { 0.0 };
-            *old = *new;
-        }
+        let (old, new) = (&*aspects, &self.signals.aspects);
+        in_parts(&*self.workers, shown, &|_, first, shown| {
+            for ((shown, old), new) in shown.iter_mut().zip(&old[first..]).zip(&new[first..]) {
+                *shown = if old == new { *shown + dt } else { 0.0 };
+            }
+        });
+        aspects.copy_from_slice(new);
     }
 
     pub(super) fn restart_signals(&mut self) {

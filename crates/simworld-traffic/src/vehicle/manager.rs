@@ -12,6 +12,7 @@
 //! one step of several ([`Clock`](super::clock::Clock)).
 
 use serde::{Deserialize, Serialize};
+use simworld_core::id::CrossingId;
 use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
@@ -49,8 +50,8 @@ pub(crate) const EXIT: u32 = u32::MAX - 1;
 pub(crate) const STANDING: f64 = 0.1;
 
 /// One vehicle, as far as a step needs it: a line of the cache, and no more than one.
-#[repr(align(64))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[repr(align(64))]
 pub(crate) struct Vehicle {
     /// Its front, m along its track.
     pub(crate) s: f64,
@@ -78,6 +79,8 @@ pub(crate) struct Vehicle {
     /// Its acceleration in the last step, m/s²: kept between decisions by those who decide less often.
     pub(crate) acceleration: f32,
 }
+
+const _: () = assert!(size_of::<Vehicle>() == 64);
 
 impl Vehicle {
     /// One at rest at a station, with no way on yet.
@@ -358,9 +361,9 @@ impl VehicleManager {
         self.whereabouts.len()
     }
 
-    /// Vehicles about to pass each crossing.
-    pub(crate) fn claims(&self) -> impl Iterator<Item = u32> {
-        self.junctions.claims()
+    /// Vehicles about to pass a crossing.
+    pub(crate) fn claims(&self, crossing: CrossingId) -> u32 {
+        self.junctions.claims(crossing)
     }
 
     /// One step of all vehicles.
@@ -375,7 +378,7 @@ impl VehicleManager {
         counters: &mut Counters,
         workers: &dyn Workers,
     ) {
-        self.unlock(tracks, config, at, counters);
+        self.unlock(tracks, config, at, counters, workers);
         self.turn_off(tracks, config, at, counters);
         self.think_over(tracks, config, streams, at, counters);
         self.steer(tracks, config, streams);
@@ -464,10 +467,18 @@ impl VehicleManager {
 
     /// The lanes that have vehicles, and these.
     pub(crate) fn queues<'a>(&'a self, tracks: &'a Tracks) -> impl Iterator<Item = (Track, &'a [Vehicle])> {
-        self.parts.iter().zip(&tracks.layout.parts).flat_map(|(part, layout)| {
-            let lanes = part.slabs.occupied().take_while(|local| *local < layout.lanes);
-            lanes.map(move |local| (layout.tracks[local], part.slabs.queue(local)))
-        })
+        (0..self.parts.len()).flat_map(|part| self.queues_of(tracks, part))
+    }
+
+    /// The lanes of a part that have vehicles, and these.
+    pub(super) fn queues_of<'a>(
+        &'a self,
+        tracks: &'a Tracks,
+        part: usize,
+    ) -> impl Iterator<Item = (Track, &'a [Vehicle])> {
+        let (slabs, layout) = (&self.parts[part].slabs, &tracks.layout.parts[part]);
+        let lanes = slabs.occupied().take_while(|local| *local < layout.lanes);
+        lanes.map(|local| (layout.tracks[local], slabs.queue(local)))
     }
 
     /// The leg to which a vehicle wants to go from its lane.

@@ -1,5 +1,7 @@
 //! One part of the network: its vehicles, and how they move along its tracks and out of it.
 
+use std::hint::black_box;
+
 use serde::{Deserialize, Serialize};
 
 use super::clock::Clock;
@@ -139,7 +141,7 @@ impl Part {
             let [first, ..] = self.slabs.queue(lane) else { continue };
             let last = self.slabs.queue(lane).last().unwrap_or(first);
             let closes_up = !passes.is_empty() && passes.binary_search(&first.id).is_ok();
-            tails[lane] = Tail { closes_up, ..Tail::of(last) };
+            tails[lane] = Tail::of(last).closing_up(closes_up);
             shown.push(lane as u32);
         }
     }
@@ -225,6 +227,19 @@ impl Part {
             }
         }
         self.work.accelerations = accelerations;
+    }
+
+    /// Reads what the first of the lanes of a word of bits will look at: the way on, its signal and the tail behind it, one right after
+    /// the other. In a long step far from all interest nobody else has looked at them lately, and processors wait for many such places of
+    /// the memory at once.
+    pub(super) fn touch_ahead(&self, scene: &Scene<'_>, word: usize) {
+        let (tracks, layout) = (scene.tracks, self.layout(scene.tracks));
+        let ahead = |local: usize| {
+            let way = tracks.ways.get(self.slabs.queue(local).first()?.next as usize)?;
+            Some(scene.tail(way.to).granted ^ scene.aspect(way.signal) as u32)
+        };
+        let lanes = (word * 64..layout.lanes).take(64);
+        black_box(lanes.filter_map(ahead).fold(0, |all, seen| all ^ seen));
     }
 
     fn integrate(&mut self, scene: &Scene<'_>) {

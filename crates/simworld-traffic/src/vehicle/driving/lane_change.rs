@@ -86,7 +86,7 @@ impl Part {
         let layout = self.layout(scene.tracks);
         let is_turn_of = scene.at.turn();
         let mut from = 0;
-        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
+        while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
             let lane = layout.tracks[local];
             if !is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {

@@ -57,8 +57,8 @@ impl<'a> Lane<'a> {
         let track = part.layout(tracks).tracks[local];
         let Measure { length: end, limit, bend } = part.layout(tracks).measures[local];
         let way = tracks.connection(track);
-        let closes_up =
-            !scene.passes.is_empty() && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up;
+        let closes_up = !scene.passes.is_empty()
+            && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up();
         Self { part, scene, track, way, end, limit, bend, ghosts, closes_up }
     }
 }

@@ -9,6 +9,8 @@
 //! Behind those who may, everybody closes up, so that rears come out of junctions in which nobody else could go. Nobody jumps, and all other
 //! rules of crossing hold.
 
+use simworld_core::net::Workers;
+
 use super::clusters::{Wish, awaited};
 use super::junction::{PATIENT, is_room};
 use super::leavers::FAR;
@@ -17,6 +19,7 @@ use crate::vehicle::driving::lane_change::{old_lane, stretch};
 use crate::vehicle::manager::{EXIT, NONE, STANDING, Vehicle, VehicleManager};
 use crate::vehicle::queues::path::Path;
 use crate::vehicle::queues::tail::Tail;
+use crate::vehicle::threads::{Sweep, each};
 use crate::vehicle::tracks::{Track, Tracks, Way};
 use crate::{Counters, TrafficConfig};
 
@@ -33,6 +36,8 @@ const EVERY: f64 = 1.0;
 pub(in crate::vehicle) struct Waits {
     /// Lane, the lane that it waits for, and the search that met it; by lane.
     edges: Vec<(Track, Track, u32)>,
+    /// Those found in each part.
+    found: Vec<Vec<(Track, Track, u32)>>,
 }
 
 impl Waits {
@@ -72,21 +77,25 @@ impl VehicleManager {
         config: &TrafficConfig,
         at: Moment,
         counters: &mut Counters,
+        workers: &dyn Workers,
     ) {
         if !is_due(at.step, at.dt, EVERY) {
             return;
         }
         let mut waits = std::mem::take(&mut self.waits);
-        waits.edges.clear();
-        for (lane, queue) in self.queues(tracks) {
-            if let Some(target) =
-                queue.first().and_then(|first| self.waits_behind(tracks, config, lane, first))
-            {
-                waits.edges.push((lane, target, 0));
-            }
-        }
-        waits.edges.extend(self.left_behind(tracks).map(|(lane, target)| (lane, target, 0)));
-        waits.edges.sort_unstable();
+        let Waits { edges, found } = &mut waits;
+        found.resize_with(self.parts.len(), Vec::new);
+        let this = &*self;
+        each(workers, Sweep::of(at.step, 3), found, |part, found| {
+            let waits = this.queues_of(tracks, part).filter_map(|(lane, queue)| {
+                let target = this.waits_behind(tracks, config, lane, queue.first()?)?;
+                Some((lane, target))
+            });
+            found.extend(waits.chain(this.left_behind(tracks, part)).map(|(lane, target)| (lane, target, 0)));
+        });
+        edges.clear();
+        edges.extend(found.iter_mut().flat_map(|found| found.drain(..)));
+        edges.sort_unstable();
         waits.edges.dedup_by_key(|edge| edge.0);
         for start in 0..waits.edges.len() {
             if let Some(ring) = waits.ring_from(start) {

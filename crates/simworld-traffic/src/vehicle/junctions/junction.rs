@@ -6,6 +6,7 @@
 //! whom they would [touch beside it](crate::vehicle::tracks::beside).
 
 use serde::{Deserialize, Serialize};
+use simworld_core::id::CrossingId;
 use simworld_core::net::Aspect;
 
 use super::clusters::{TOO_LONG, Wish, awaited};
@@ -128,9 +129,9 @@ impl Junctions {
         }
     }
 
-    /// Vehicles about to pass each crossing.
-    pub(in crate::vehicle) fn claims(&self) -> impl Iterator<Item = u32> {
-        self.claims.iter().zip(self.far_claims.iter()).map(|(near, far)| near + far)
+    /// Vehicles about to pass a crossing.
+    pub(in crate::vehicle) fn claims(&self, crossing: CrossingId) -> u32 {
+        self.claims.of(crossing) + self.far_claims.of(crossing)
     }
 
     /// The claim of one whose rear is on a way.
@@ -162,9 +163,13 @@ impl Part {
         let mut requests = std::mem::take(&mut self.work.requests);
         requests.clear();
         let mut junctions = layout.junctions.iter().map(|lanes| lanes.end as usize);
-        let (mut until, mut from) = (0, 0);
-        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
+        let (mut until, mut from, mut word) = (0, 0, usize::MAX);
+        while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
+            if self.clock.is_long() && local / 64 != word {
+                word = local / 64;
+                self.touch_ahead(scene, word);
+            }
             if local >= until {
                 self.grant(scene, &mut requests);
                 until = junctions.find(|end| *end > local).unwrap_or(layout.lanes);
@@ -461,7 +466,7 @@ pub(super) fn is_room(
     let moves = if last.v > STANDING { last.v * 2.0 } else { 0.0 };
     // Who has to stand on the bend behind the lane takes the end of it.
     let gap = config.vehicle_type(vehicle.row).driver.gap;
-    let over = if last.over > 0.0 { f64::from(last.over) + gap } else { 0.0 };
+    let over = if last.over() > 0.0 { last.over() + gap } else { 0.0 };
     // Unless all of them fit there when they stand, one's rear may stay in the junction; in a roundabout who goes first does not
     // stand, and its lanes are too short for two.
     let fits = || tracks.is_in_ring(lane) || storage.taken(lane) + over + inbound + room <= length;

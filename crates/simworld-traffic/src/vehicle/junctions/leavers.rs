@@ -71,21 +71,22 @@ impl VehicleManager {
         (last.holding == way && !has_leave(last) && stands(last, last.s + end)).then_some((way, false))
     }
 
-    /// The lanes on which nobody is but the rears of those who have long stood on a way from there, with the lanes behind these ways.
+    /// The lanes of a part on which nobody is but the rears of those who have long stood on a way from there, with the lanes behind these
+    /// ways.
     pub(in crate::vehicle) fn left_behind<'a>(
         &'a self,
         tracks: &'a Tracks,
+        part: usize,
     ) -> impl Iterator<Item = (Track, Track)> + 'a {
-        self.parts.iter().zip(&tracks.layout.parts).flat_map(move |(part, layout)| {
-            let ways = part.slabs.occupied().skip_while(|local| *local < layout.lanes);
-            ways.filter_map(move |local| {
-                let number = layout.tracks[local] - tracks.lanes as Track;
-                let way = &tracks.ways[number as usize];
-                let last = part.slabs.queue(local).last()?;
-                let is_left = last.s < last.length() && last.stood > LOCKED;
-                (is_left && self.queue(tracks, way.from).is_empty())
-                    .then(|| (way.from, self.held_up_by(tracks, number, f64::INFINITY, FAR)))
-            })
+        let (part, layout) = (&self.parts[part], &tracks.layout.parts[part]);
+        let ways = part.slabs.occupied().skip_while(|local| *local < layout.lanes);
+        ways.filter_map(move |local| {
+            let number = layout.tracks[local] - tracks.lanes as Track;
+            let way = &tracks.ways[number as usize];
+            let last = part.slabs.queue(local).last()?;
+            let is_left = last.s < last.length() && last.stood > LOCKED;
+            (is_left && self.queue(tracks, way.from).is_empty())
+                .then(|| (way.from, self.held_up_by(tracks, number, f64::INFINITY, FAR)))
         })
     }
 }
@@ -154,9 +155,12 @@ mod tests {
         let end = tracks.length[from as usize];
         put(&mut vehicles, &tracks, &config, ((tracks.lanes + way) as Track, 1.0), 60.0);
         let rear = 1.0 - vehicles.queue(&tracks, (tracks.lanes + way) as Track)[0].length();
-        assert_eq!(vehicles.left_behind(&tracks).collect::<Vec<_>>(), [(from, to)]);
+        let left = |vehicles: &VehicleManager| -> Vec<(Track, Track)> {
+            (0..vehicles.parts.len()).flat_map(|part| vehicles.left_behind(&tracks, part)).collect()
+        };
+        assert_eq!(left(&vehicles), [(from, to)]);
         put(&mut vehicles, &tracks, &config, (from, end + rear - 2.0), 60.0);
-        assert_eq!(vehicles.left_behind(&tracks).count(), 0, "somebody is on the lane");
+        assert_eq!(left(&vehicles), [], "somebody is on the lane");
         // Even if his way ends on this lane.
         let first = Vehicle { next: EXIT, ..vehicles.queue(&tracks, from)[0] };
         let waits = |first: &Vehicle| vehicles.behind_a_leaver(&tracks, from, first);
@@ -200,7 +204,7 @@ mod tests {
         }
         let asks = Vehicle::new(car, 0, 1.0, 99, 0.0);
         let moving = Tail { rear: 4.0, v: 3.0, ..vehicles.end_of(&tracks, from) };
-        assert!(f64::from(moving.over) > car.length - 0.2);
+        assert!(moving.over() > car.length - 0.2);
         let room = |tail: &Tail| {
             is_room(&tracks, &config, (&vehicles.junctions, &vehicles.storage), (from, tail), &asks)
         };

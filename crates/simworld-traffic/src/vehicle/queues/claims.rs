@@ -1,6 +1,7 @@
 //! Vehicles about to pass each crossing, as those on foot see them.
 
 use serde::{Deserialize, Serialize};
+use simworld_core::id::CrossingId;
 
 use super::tally::Tally;
 use crate::vehicle::manager::{EXIT, NONE, Vehicle};
@@ -50,8 +51,9 @@ impl Claims {
         }
     }
 
-    pub(in crate::vehicle) fn iter(&self) -> impl Iterator<Item = u32> {
-        self.0.iter()
+    /// How many are about to pass a crossing.
+    pub(in crate::vehicle) fn of(&self, crossing: CrossingId) -> u32 {
+        self.0.get(crossing.index())
     }
 
     pub(in crate::vehicle) fn bytes(&self) -> usize {

@@ -6,6 +6,8 @@
 //! the roads, and nothing is asked of the heap once the slabs are made. Before there is more of it than before, the slabs that
 //! nobody has are squeezed out.
 
+use std::hint::black_box;
+
 use serde::{Deserialize, Serialize};
 
 use super::path::Path;
@@ -117,6 +119,28 @@ impl Slabs {
             bits = *self.occupied.get(word)?;
         }
         Some(word * 64 + bits.trailing_zeros() as usize)
+    }
+
+    /// The same for who goes on from track to track and looks at the vehicles of each: those of some dozens are read one right after
+    /// the other before the first of them is looked at, so that processors wait for many such places of the memory at once.
+    #[inline]
+    pub(crate) fn next_at_hand(&self, track: usize) -> Option<usize> {
+        let next = self.occupied_from(track)?;
+        if track.is_multiple_of(64) || track / 64 != next / 64 {
+            self.touch(next / 64, self.occupied[next / 64]);
+        }
+        Some(next)
+    }
+
+    /// Reads the first and the last vehicle of some of the tracks of a word of bits that have any.
+    pub(crate) fn touch(&self, word: usize, some: u64) {
+        let (mut bits, mut all) = (self.occupied.get(word).map_or(0, |bits| bits & some), 0);
+        while bits != 0 {
+            let range = self.spans[word * 64 + bits.trailing_zeros() as usize].range();
+            all ^= self.vehicles[range.start].id ^ self.vehicles[range.end - 1].id;
+            bits &= bits - 1;
+        }
+        black_box(all);
     }
 
     /// The tracks with vehicles, ascending.

@@ -3,8 +3,9 @@
 use crate::vehicle::manager::{NONE, Vehicle};
 use crate::vehicle::tracks::Tracks;
 
-/// The last vehicle of a lane, as the drivers behind the junction see it.
+/// The last vehicle of a lane, as the drivers behind the junction see it: a half of a line of the cache, and not over two of them.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 pub(crate) struct Tail {
     /// Its rear, m; infinite if the lane is empty.
     pub(crate) rear: f64,
@@ -14,11 +15,12 @@ pub(crate) struct Tail {
     /// The connection it came by, if its rear has not cleared it, and its place in the order of leave there.
     pub(crate) way: u32,
     pub(crate) granted: u32,
-    /// How far who has left the lane by a way on which he may have to stand reaches back into it, m.
+    /// How far who has left the lane by a way on which he may have to stand reaches back into it, m; with a minus if those on the lane
+    /// close up.
     pub(crate) over: f32,
-    /// Whether those on the lane close up, since its first is in a lock that only all of it together undo.
-    pub(crate) closes_up: bool,
 }
+
+const _: () = assert!(size_of::<Tail>() == 32);
 
 impl Tail {
     pub(in crate::vehicle) fn of(last: &Vehicle) -> Self {
@@ -40,13 +42,31 @@ impl Tail {
 
     /// Takes note of one who has left the lane but for its rear; whether that is the end of the lane now.
     pub(in crate::vehicle) fn see_leaver(&mut self, leaver: &Self) -> bool {
-        let Self { over, closes_up, .. } = *self;
+        let (over, closes_up) = (self.over.abs().max(leaver.over.abs()), self.closes_up());
         let is_last = leaver.rear < self.rear;
         if is_last {
-            *self = Self { closes_up, ..*leaver };
+            *self = *leaver;
         }
-        self.over = over.max(leaver.over);
+        self.over = over;
+        *self = self.closing_up(closes_up);
         is_last
+    }
+
+    /// How far who has left the lane by a way on which he may have to stand reaches back into it, m.
+    #[inline]
+    pub(in crate::vehicle) fn over(&self) -> f64 {
+        f64::from(self.over.abs())
+    }
+
+    /// Whether those on the lane close up, since its first is in a lock that only all of it together undo.
+    #[inline]
+    pub(in crate::vehicle) fn closes_up(&self) -> bool {
+        self.over.is_sign_negative()
+    }
+
+    /// The same of a lane on which they do or do not.
+    pub(in crate::vehicle) fn closing_up(self, closes_up: bool) -> Self {
+        Self { over: if closes_up { -self.over.abs() } else { self.over.abs() }, ..self }
     }
 
     /// Whether the lane is empty.
@@ -59,6 +79,6 @@ impl Tail {
 impl Default for Tail {
     fn default() -> Self {
         let (way, granted) = (NONE, 0);
-        Self { rear: f64::INFINITY, v: 0.0, length: 0.0, way, granted, over: 0.0, closes_up: false }
+        Self { rear: f64::INFINITY, v: 0.0, length: 0.0, way, granted, over: 0.0 }
     }
 }

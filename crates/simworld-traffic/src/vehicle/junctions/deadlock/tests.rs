@@ -4,7 +4,8 @@ use super::*;
 use crate::vehicle::tracks::conflicts::Conflict;
 
 fn rings(edges: &[(Track, Track)]) -> Vec<Track> {
-    let mut waits = Waits { edges: edges.iter().map(|edge| (edge.0, edge.1, 0)).collect() };
+    let waiting = edges.iter().map(|edge| (edge.0, edge.1, 0)).collect();
+    let mut waits = Waits { edges: waiting, ..Waits::default() };
     (0..edges.len()).filter_map(|start| waits.ring_from(start)).collect()
 }
 
