@@ -9,7 +9,8 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::id::IntersectionId;
 
-use super::manager::{NONE, Scene, VehicleManager};
+use super::manager::{NONE, VehicleManager};
+use super::scene::Scene;
 use super::tracks::{Track, Tracks};
 
 /// Time between two steps of those far from all interest, s: half the time gap that drivers keep.

@@ -9,10 +9,11 @@ use crate::Leg;
 use crate::takeover::LaneWish;
 use crate::vehicle::VehicleKind;
 use crate::vehicle::junctions::patience::PATIENCE;
-use crate::vehicle::manager::{EXIT, NONE, Scene, Vehicle, VehicleManager};
+use crate::vehicle::manager::{EXIT, NONE, Vehicle, VehicleManager};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::ghosts::{BLOCK_SEEN, Ghost, first_block, sort};
 use crate::vehicle::queues::path::Path;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::closures::Closures;
 use crate::vehicle::tracks::{Track, Tracks};
 
@@ -352,7 +353,7 @@ mod tests {
 
     use super::*;
     use crate::vehicle::clock::Moment;
-    use crate::vehicle::manager::Sight;
+    use crate::vehicle::scene::Sight;
     use crate::{Route, TrafficConfig};
 
     #[test]

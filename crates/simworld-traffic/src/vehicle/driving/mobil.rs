@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::lane_change::stretch;
 use crate::vehicle::foreign::strangers;
-use crate::vehicle::manager::{NONE, Scene, Vehicle};
+use crate::vehicle::manager::{NONE, Vehicle};
 use crate::vehicle::part::Part;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::Track;
 
 /// When drivers change lanes.

@@ -2,7 +2,8 @@
 
 use super::following::{Ahead, CarFollowing, Leader};
 use super::perception::Errors;
-use crate::vehicle::manager::{STANDING, Scene, Vehicle};
+use crate::vehicle::manager::{STANDING, Vehicle};
+use crate::vehicle::scene::Scene;
 use crate::vehicle::types::VehicleType;
 
 /// Who is nearer than this share of the way of one decision to where he must stand decides in every step.

@@ -10,7 +10,8 @@ use simworld_core::net::Aspect;
 
 use crate::TrafficConfig;
 use crate::vehicle::VehicleKind;
-use crate::vehicle::manager::{NONE, Scene, Vehicle, VehicleManager};
+use crate::vehicle::manager::{NONE, Vehicle, VehicleManager};
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::{Track, Tracks};
 use crate::vehicle::types::VehicleType;
 

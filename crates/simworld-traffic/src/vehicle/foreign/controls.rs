@@ -10,9 +10,10 @@ use simworld_core::seed::Stream;
 
 use crate::takeover::{ControlError, Drive, LaneWish};
 use crate::vehicle::driving::lookahead::{Lane, acceleration};
-use crate::vehicle::manager::{NONE, Scene, Vehicle, VehicleManager};
+use crate::vehicle::manager::{NONE, Vehicle, VehicleManager};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::path::Path;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::{Track, Tracks};
 use crate::vehicle::{CarFollowing, VehicleKind};
 use crate::{Leg, TrafficConfig};

@@ -7,7 +7,8 @@ use simworld_core::net::{Aspect, time_over};
 use crate::vehicle::Way;
 use crate::vehicle::junctions::junction::horizon;
 use crate::vehicle::junctions::precedence::{Asker, CLEARS, COMES, Comer, EASILY, MARGIN, SIGHT};
-use crate::vehicle::manager::{STANDING, Scene, Sight, Vehicle};
+use crate::vehicle::manager::{STANDING, Vehicle};
+use crate::vehicle::scene::{Scene, Sight};
 use crate::vehicle::tracks::conflicts::Conflict;
 use crate::vehicle::tracks::{Obstacle, Track};
 

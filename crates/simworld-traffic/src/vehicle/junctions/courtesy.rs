@@ -5,8 +5,9 @@
 //! stands at his line hinders nobody.
 
 use super::junction::{has_room, may_pass, signal_allows};
-use crate::vehicle::manager::{NONE, Scene, Vehicle};
+use crate::vehicle::manager::{NONE, Vehicle};
 use crate::vehicle::part::Part;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::Tracks;
 
 /// Who has stood for so long at his line is let in, s: for so long, and once in so many. Ways over wide junctions take half a minute. Where
@@ -63,8 +64,9 @@ mod tests {
 
     use super::*;
     use crate::vehicle::clock::Moment;
-    use crate::vehicle::manager::{Sight, VehicleManager};
+    use crate::vehicle::manager::VehicleManager;
     use crate::vehicle::queues::path::Path;
+    use crate::vehicle::scene::Sight;
     use crate::{Counters, Leg, Route, TrafficConfig};
 
     /// The step at which the stream has come to the crossing.

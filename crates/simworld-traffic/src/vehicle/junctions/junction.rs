@@ -15,12 +15,13 @@ use crate::TrafficConfig;
 use crate::vehicle::clock::{Clock, Moment};
 use crate::vehicle::driving::lookahead::BEFORE_LINE;
 use crate::vehicle::driving::sirens::{SEES as SIREN_SEES, may_pass_red};
-use crate::vehicle::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
+use crate::vehicle::manager::{EXIT, NONE, STANDING, Vehicle};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::claims::Claims;
 use crate::vehicle::queues::storage::Storage;
 use crate::vehicle::queues::tail::Tail;
 use crate::vehicle::queues::tally::Tally;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::{Track, Tracks, Way};
 
 /// Braking that drivers accept to stop at yellow, m/s².

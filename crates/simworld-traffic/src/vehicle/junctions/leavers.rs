@@ -102,8 +102,9 @@ mod tests {
     use super::super::junction::is_room;
     use super::*;
     use crate::vehicle::clock::Moment;
-    use crate::vehicle::manager::{EXIT, NONE, Sight};
+    use crate::vehicle::manager::{EXIT, NONE};
     use crate::vehicle::queues::path::Path;
+    use crate::vehicle::scene::Sight;
     use crate::{Counters, TrafficConfig};
 
     /// Drivers and the streets of a plan, without anybody.

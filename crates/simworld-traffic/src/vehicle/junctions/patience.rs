@@ -162,8 +162,9 @@ mod tests {
 
     use super::*;
     use crate::vehicle::clock::Moment;
-    use crate::vehicle::manager::{EXIT, Sight};
+    use crate::vehicle::manager::EXIT;
     use crate::vehicle::queues::path::Path;
+    use crate::vehicle::scene::Sight;
     use crate::{TrafficConfig, TripEnd};
 
     fn leg(road: u32) -> Leg {

@@ -13,8 +13,9 @@ use simworld_core::net::{Aspect, time_over};
 use super::junction::horizon;
 use crate::vehicle::driving::lookahead::BEFORE_LINE;
 use crate::vehicle::foreign::strangers;
-use crate::vehicle::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
+use crate::vehicle::manager::{EXIT, NONE, STANDING, Vehicle};
 use crate::vehicle::part::Part;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::conflicts::Conflict;
 use crate::vehicle::{Idm, Way};
 

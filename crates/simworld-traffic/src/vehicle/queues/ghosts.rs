@@ -3,8 +3,9 @@
 
 use super::tail::Tail;
 use crate::vehicle::driving::lane_change::{old_lane, out, stretch};
-use crate::vehicle::manager::{STANDING, Scene, Vehicle};
+use crate::vehicle::manager::{STANDING, Vehicle};
 use crate::vehicle::part::Part;
+use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::{Obstacle, Track, Way};
 
 /// From so far one sees that one's lane is blocked, m.

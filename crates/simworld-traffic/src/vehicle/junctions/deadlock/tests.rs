@@ -281,7 +281,7 @@ fn who_has_a_permit_lets_out_first_who_was_let_in_after_him() {
     use simworld_core::seed::Seed;
 
     use super::super::clusters::Permit;
-    use crate::vehicle::manager::Sight;
+    use crate::vehicle::scene::Sight;
 
     let (tracks, config, mut vehicles) = near_junctions_in_a_row();
     let car = |id, s| Vehicle { stood: 60.0, ..Vehicle::new(config.vehicle_type(0), 0, 1.0, id, s) };

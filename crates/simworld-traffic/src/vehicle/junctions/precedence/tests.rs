@@ -7,8 +7,9 @@ use simworld_core::seed::Seed;
 
 use super::*;
 use crate::vehicle::clock::Moment;
-use crate::vehicle::manager::{Sight, VehicleManager};
+use crate::vehicle::manager::VehicleManager;
 use crate::vehicle::queues::path::Path;
+use crate::vehicle::scene::Sight;
 use crate::vehicle::tracks::Tracks;
 use crate::vehicle::tracks::beside::Pairs;
 use crate::{Counters, TrafficConfig};
