@@ -90,15 +90,31 @@ impl<T> Lists<T> {
     }
 }
 
+/// Lists that are there, in their order.
+impl<T> FromIterator<Vec<T>> for Lists<T> {
+    fn from_iter<I: IntoIterator<Item = Vec<T>>>(lists: I) -> Self {
+        let (mut starts, mut values) = (vec![0], Vec::new());
+        for list in lists {
+            values.extend(list);
+            starts.push(values.len() as u32);
+        }
+        starts.shrink_to_fit();
+        values.shrink_to_fit();
+        Self { starts, values }
+    }
+}
+
 impl<T> Index<usize> for Lists<T> {
     type Output = [T];
 
+    #[inline]
     fn index(&self, list: usize) -> &[T] {
         &self.values[self.starts[list] as usize..self.starts[list + 1] as usize]
     }
 }
 
 impl<T> IndexMut<usize> for Lists<T> {
+    #[inline]
     fn index_mut(&mut self, list: usize) -> &mut [T] {
         &mut self.values[self.starts[list] as usize..self.starts[list + 1] as usize]
     }
@@ -121,6 +137,14 @@ mod tests {
         }
         assert_eq!(lists.run(3..=7), (3..=7).flat_map(|list| lists[list].to_vec()).collect::<Vec<_>>());
         assert_eq!(lists.run(0..=63), lists.values());
+    }
+
+    #[test]
+    fn lists_come_back_as_they_were() {
+        let lists = [vec![1, 2], vec![], vec![3]];
+        let taken: Lists<u32> = lists.iter().cloned().collect();
+        assert_eq!(taken.len(), 3);
+        assert!(lists.iter().enumerate().all(|(index, list)| taken[index] == list[..]));
     }
 
     #[test]

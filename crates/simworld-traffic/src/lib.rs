@@ -15,7 +15,6 @@ mod names;
 pub mod output;
 mod parts;
 mod pedestrian;
-mod ragged;
 mod route;
 pub mod signal;
 #[cfg(feature = "sumo")]

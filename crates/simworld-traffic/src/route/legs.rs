@@ -1,14 +1,14 @@
 //! Legs with those that follow them, close together in memory.
 
 use simworld_core::id::LaneId;
+use simworld_core::lists::Lists;
 use simworld_core::net::RoadNetwork;
 
 use super::Leg;
-use crate::ragged::Ragged;
 
 /// By leg: which follow it, ascending, and the time to their ends when they are free, s.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Legs(Ragged<(Leg, f64)>);
+pub(super) struct Legs(Lists<(Leg, f64)>);
 
 impl Legs {
     pub(super) fn new(network: &RoadNetwork) -> Self {
@@ -58,9 +58,9 @@ fn pairs(network: &RoadNetwork) -> Vec<(Leg, Leg, f64)> {
 }
 
 /// Sorted pairs, by the first leg of each.
-fn by_first(count: usize, pairs: &[(Leg, Leg, f64)]) -> Ragged<(Leg, f64)> {
+fn by_first(count: usize, pairs: &[(Leg, Leg, f64)]) -> Lists<(Leg, f64)> {
     let start = |index: usize| pairs.partition_point(|pair| pair.0.index() < index);
     let list =
         |index: usize| pairs[start(index)..start(index + 1)].iter().map(|pair| (pair.1, pair.2)).collect();
-    (0..count).map(list).collect::<Ragged<_>>()
+    (0..count).map(list).collect::<Lists<_>>()
 }

@@ -4,12 +4,12 @@
 //! comes: two cars pass where a lorry that turns would touch another, and a bus whoever is beside it.
 
 use simworld_core::id::ConnectionId;
+use simworld_core::lists::Lists;
 use simworld_core::net::RoadNetwork;
 
 use super::conflicts::Conflict;
 use super::swept::{Size, Sweep};
 use crate::TrafficConfig;
-use crate::ragged::Ragged;
 use crate::vehicle::types::is_long;
 
 /// Up to this length it is a car or a van, m; beyond, up to a long vehicle, a lorry.
@@ -46,9 +46,9 @@ pub(crate) struct Beside {
     /// The conflicts that short vehicles have there.
     pub(crate) short: Vec<Vec<Conflict>>,
     /// The ways on which nobody may be while a long vehicle is on this one, and the other way round.
-    pub(crate) tight: Ragged<u32>,
+    pub(crate) tight: Lists<u32>,
     /// The ways on which no long vehicle may be while another is on this one.
-    pub(crate) narrow: Ragged<u32>,
+    pub(crate) narrow: Lists<u32>,
 }
 
 /// What bodies of each size sweep over on one way.

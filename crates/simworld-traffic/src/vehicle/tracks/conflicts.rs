@@ -1,11 +1,11 @@
 //! Where ways across an intersection meet: the stretch of each on which a vehicle could touch one on the other.
 
 use simworld_core::id::ConnectionId;
+use simworld_core::lists::Lists;
 use simworld_core::net::{Connection, Ends, RoadNetwork, WayTrace, Zone};
 
 use super::beside::Pairs;
 use crate::TrafficConfig;
-use crate::ragged::Ragged;
 use crate::vehicle::types::is_long;
 
 /// Room beside a body for what it sweeps over in a turn: the chord of seven metres on a radius of eight, and toes, m.
@@ -31,7 +31,7 @@ pub(crate) fn conflicts(
     network: &RoadNetwork,
     config: &TrafficConfig,
     beside: Vec<Vec<Conflict>>,
-) -> Ragged<Conflict> {
+) -> Lists<Conflict> {
     let short = config.types.iter().filter(|row| !is_long(row.length));
     let near = short.map(|row| row.width).fold(0.0, f64::max) + SWEPT;
     let traces: Vec<WayTrace> = network.connections.iter().map(WayTrace::new).collect();
@@ -65,7 +65,7 @@ mod tests {
     use super::super::beside::Beside;
     use super::*;
 
-    fn crossroads() -> (RoadNetwork, Ragged<Conflict>) {
+    fn crossroads() -> (RoadNetwork, Lists<Conflict>) {
         let plan = StreetPlan::crossroads(120.0);
         let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
         let config = TrafficConfig::default();

@@ -2,10 +2,11 @@
 
 use std::iter;
 
+use simworld_core::lists::Lists;
+
 use super::Track;
 use super::conflicts::Conflict;
 use super::layout::Layout;
-use crate::ragged::Ragged;
 
 /// The ways that meet one: from a number among the ways of its part on, a bit each, as many as it has conflicts, in the same order.
 /// None where they are too far from one another, as in very wide junctions: there one asks for each of them.
@@ -66,7 +67,7 @@ impl Held {
 pub(super) struct Meetings(Vec<Meeting>);
 
 impl Meetings {
-    pub(super) fn new(layout: &Layout, lanes: usize, conflicts: &Ragged<Conflict>) -> Self {
+    pub(super) fn new(layout: &Layout, lanes: usize, conflicts: &Lists<Conflict>) -> Self {
         Self((0..conflicts.len()).map(|way| Meeting::new(layout, lanes, way, &conflicts[way])).collect())
     }
 

@@ -24,6 +24,7 @@ use leading::is_sure;
 use meeting::{Held, Meetings};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
+use simworld_core::lists::Lists;
 use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
@@ -32,7 +33,6 @@ use super::junctions::clusters::Clusters;
 use super::junctions::trailing::SPARE;
 use super::manager::NONE;
 use super::trips::kerb;
-use crate::ragged::Ragged;
 use crate::{Leg, Router, TrafficConfig};
 
 /// A lane or a connection: lanes come first.
@@ -106,7 +106,7 @@ pub(crate) struct Tracks {
     pub(crate) network: Arc<RoadNetwork>,
     pub(crate) drawn: Arc<RoadNetwork>,
     /// By connection: the lanes inside of joined junctions over which it leads.
-    pub(crate) through: Ragged<LaneId>,
+    pub(crate) through: Lists<LaneId>,
     pub(crate) lanes: usize,
     /// Length of each track, m.
     pub(crate) length: Vec<f64>,
@@ -119,15 +119,15 @@ pub(crate) struct Tracks {
     pub(super) signals: Vec<u32>,
     sure: Vec<bool>,
     /// The connections whose vehicles could touch one on this connection, and where.
-    pub(crate) conflicts: Ragged<Conflict>,
+    pub(crate) conflicts: Lists<Conflict>,
     /// A bit for each of them: one asks for all of them who is there, and hardly ever for where they meet.
     meetings: Meetings,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
-    pub(crate) siblings: Ragged<(u32, f64)>,
+    pub(crate) siblings: Lists<(u32, f64)>,
     /// Ways so near to each connection that a long vehicle on either touches whoever is on the other in the turn, and those on
     /// which it touches another long one.
-    pub(crate) tight: Ragged<u32>,
-    pub(crate) narrow: Ragged<u32>,
+    pub(crate) tight: Lists<u32>,
+    pub(crate) narrow: Lists<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
     /// The lane beside each lane on which the others come, on streets of one lane each way, or [`NONE`].
@@ -141,10 +141,10 @@ pub(crate) struct Tracks {
     /// How far to the left of each lane the parking strip at its kerb lies, m; 0 where there is none.
     pub(super) kerb: Vec<f32>,
     /// The ways from the end of each lane, with the leg to which each leads.
-    exits: Ragged<(u32, Leg)>,
+    exits: Lists<(u32, Leg)>,
     pub(crate) router: Router,
     /// The crossings on each connection, in the order in which it meets them.
-    pub(crate) strips: Ragged<Strip>,
+    pub(crate) strips: Lists<Strip>,
     /// The short lanes between junctions near one another.
     pub(super) clusters: Clusters,
     /// Which part of the network each track belongs to.
@@ -156,7 +156,7 @@ impl Tracks {
         let (drawn, joined) = (Arc::clone(&network), network.join_near(config.join_nearer));
         let (network, through) = match joined {
             Some(joined) => (Arc::new(joined.network), joined.through.into_iter().collect()),
-            None => (network, drawn.connections.iter().map(|_| Vec::new()).collect::<Ragged<LaneId>>()),
+            None => (network, drawn.connections.iter().map(|_| Vec::new()).collect::<Lists<LaneId>>()),
         };
         let lane_lengths = network.lanes.iter().map(|lane| lane.length);
         let way_lengths = network.connections.iter().map(|connection| connection.length);
@@ -174,7 +174,7 @@ impl Tracks {
         let conflicts = conflicts(&network, config, short);
         let mut layout = Layout::new(&network);
         layout.measure(&network, &length, &speed);
-        let strips: Ragged<Strip> = connections.clone().map(|index| strips(&network, index)).collect();
+        let strips: Lists<Strip> = connections.clone().map(|index| strips(&network, index)).collect();
         let way = |index: usize| {
             let track = network.lanes.len() + index;
             let ends = (layout.local(track as Track), layout.place(network.connections[index].to.0));
