@@ -15,16 +15,19 @@ pub(super) enum Sweep {
 }
 
 impl Sweep {
-    /// That of a phase of a step: back from where the phase before it ended. What was looked at last is still at hand; in one order
-    /// for all phases each part would have been put away by the others when it has its turn again.
+    /// That of a phase of a step: back, in each half, from where the phase before it ended. What was looked at last is still at
+    /// hand; in one order for all phases each part would have been put away by the others when it has its turn again.
     pub(super) fn of(step: u64, phase: u64) -> Self {
         if (step + phase).is_multiple_of(2) { Self::Up } else { Self::Down }
     }
 
     fn turn(self, index: usize, count: usize) -> usize {
+        // Of two threads each keeps its half of the parts from phase to phase.
+        let half = count / 2;
         match self {
-            Self::Up => index,
-            Self::Down => count.wrapping_sub(index + 1),
+            Self::Down if index < half => half - 1 - index,
+            Self::Down if index < count => half + (count - 1 - index),
+            Self::Up | Self::Down => index,
         }
     }
 }
@@ -97,5 +100,15 @@ mod tests {
         let phases = (0..4).flat_map(|step| (0..3).map(move |phase| Sweep::of(step, phase)));
         let phases: Vec<Sweep> = phases.collect();
         assert!(phases.windows(2).all(|two| two[0] != two[1]), "{phases:?}");
+    }
+
+    #[test]
+    fn each_half_of_the_parts_is_gone_through_by_itself() {
+        for count in [0, 1, 2, 7, 64] {
+            let down: Vec<usize> = (0..count).map(|index| Sweep::Down.turn(index, count)).collect();
+            let half = count / 2;
+            let halves = (0..half).rev().chain((half..count).rev());
+            assert_eq!(down, halves.collect::<Vec<_>>());
+        }
     }
 }
