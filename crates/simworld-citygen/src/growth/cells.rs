@@ -7,6 +7,7 @@
 use std::ops::RangeInclusive;
 
 use simworld_core::geometry::Point2;
+use simworld_core::ops::{greater, lesser};
 
 /// Numbers in one block.
 const ROOM: usize = 7;
@@ -36,31 +37,21 @@ pub(super) struct Bounds {
 impl Bounds {
     /// The box round two points, grown by a margin, m.
     pub(super) fn around(a: Point2, b: Point2, margin: f64) -> Self {
-        let low = Point2::new(least(a.x, b.x) - margin, least(a.y, b.y) - margin);
-        let high = Point2::new(most(a.x, b.x) + margin, most(a.y, b.y) + margin);
+        let low = Point2::new(lesser(a.x, b.x) - margin, lesser(a.y, b.y) - margin);
+        let high = Point2::new(greater(a.x, b.x) + margin, greater(a.y, b.y) + margin);
         Self { low, high }
     }
 
     /// Whether the box round two points touches it.
     pub(super) fn touches(&self, a: Point2, b: Point2) -> bool {
-        let x = (most(a.x, b.x) >= self.low.x) & (least(a.x, b.x) <= self.high.x);
-        let y = (most(a.y, b.y) >= self.low.y) & (least(a.y, b.y) <= self.high.y);
+        let x = (greater(a.x, b.x) >= self.low.x) & (lesser(a.x, b.x) <= self.high.x);
+        let y = (greater(a.y, b.y) >= self.low.y) & (lesser(a.y, b.y) <= self.high.y);
         x & y
     }
 
     pub(super) fn holds(&self, point: Point2) -> bool {
         self.touches(point, point)
     }
-}
-
-/// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` has to look for NaN.
-fn least(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The greater of two numbers, neither of them NaN.
-fn most(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }
 
 /// Squares of the land and what lies in them.
@@ -127,7 +118,7 @@ impl Cells {
             // Beyond the outermost row there is no other.
             let next = if row == last { b.x } else { a.x + (top - a.y) * slope };
             // A hair to both sides, far above rounding.
-            let (west, east) = (least(x, next) - SLACK, most(x, next) + SLACK);
+            let (west, east) = (lesser(x, next) - SLACK, greater(x, next) + SLACK);
             if !visit(row, self.column(west), self.column(east)) {
                 return;
             }

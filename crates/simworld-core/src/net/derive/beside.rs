@@ -1,10 +1,10 @@
 //! How far points are from a kerb, asked of many points.
 
-use super::extent::{greater, lesser};
 use super::outside::Outside;
 use super::pieces::{LANES, Pieces};
 use crate::geometry::Point2;
 use crate::net::polyline;
+use crate::ops::{greater, lesser};
 
 /// Where it is plain that a point is farther off than something, it is by more than this, m, whatever was rounded.
 const SLACK: f64 = 1e-6;

@@ -1,15 +1,6 @@
 //! How far things reach along two axes.
 
-/// The lesser of two numbers, neither of which is NaN: one instruction, where that of the standard library has to be right for NaN
-/// as well.
-pub(super) fn lesser(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The greater of two numbers, neither of which is NaN.
-pub(super) fn greater(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
+use crate::ops::{greater, lesser};
 
 /// The least and the greatest of some points along either of two axes.
 #[derive(Clone, Copy, Debug)]

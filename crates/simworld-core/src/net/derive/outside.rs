@@ -1,8 +1,8 @@
 //! The outside of a kerb that goes round a corner: how far from the kerb a point of the carriageway is at least.
 
-use super::extent::greater;
 use super::pieces::LANES;
 use crate::geometry::Point2;
+use crate::ops::greater;
 
 /// Lines along some pieces of a kerb that turns to the right all the way, with the carriageway on their left.
 ///

@@ -1,7 +1,7 @@
 //! Some pieces of a line, side by side: several are measured by each instruction.
 
-use super::extent::{greater, lesser};
 use crate::geometry::Point2;
+use crate::ops::{greater, lesser};
 
 /// So many pieces are measured at once.
 pub(super) const LANES: usize = 4;

@@ -1,7 +1,8 @@
 //! The shape of a path as a whole: a look at another path from there says in most cases whether the two touch.
 
-use super::extent::{Extent, greater, lesser};
+use super::extent::Extent;
 use crate::geometry::{Point2, Vector2};
+use crate::ops::{greater, lesser};
 
 /// Farther away than this no middle of a path that bends is looked for, m.
 const FARTHEST: f64 = 1e4;

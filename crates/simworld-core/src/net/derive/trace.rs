@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use super::extent::{Extent, greater, lesser};
+use super::extent::Extent;
 use super::pieces::{LANES, Pieces};
 use super::shape::Shape;
 use crate::geometry::Point2;
 use crate::net::polyline;
+use crate::ops::{greater, lesser};
 
 /// Of every so many points of a path one is looked at first.
 const STRIDE: usize = 3;

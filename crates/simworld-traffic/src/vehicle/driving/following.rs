@@ -5,9 +5,8 @@
 //! each model keeps one or two numbers of all of them together, so that nothing has to be remembered one by one.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::ops;
+use simworld_core::ops::{self, greater, lesser};
 
-use super::idm::{greater, less};
 use super::lookahead::BEFORE_LINE;
 use crate::vehicle::Idm;
 
@@ -130,7 +129,7 @@ impl Ahead {
     #[inline]
     pub(crate) fn respond_by_idm(&self, driver: &Idm, v: f64, (free, bend): (f64, f64)) -> f64 {
         let following = driver.respond(v, free, self.pressure);
-        if bend < free { less(driver.alone(v, bend), following) } else { following }
+        if bend < free { lesser(driver.alone(v, bend), following) } else { following }
     }
 
     /// The acceleration by any model, m/s².

@@ -1,6 +1,7 @@
 //! Car following: the Intelligent Driver Model (Treiber, Hennecke and Helbing 2000).
 
 use serde::{Deserialize, Serialize};
+use simworld_core::ops::greater;
 
 /// The hardest braking of a car, m/s²: tyres on dry asphalt.
 pub const HARDEST_BRAKING: f64 = 9.0;
@@ -95,18 +96,6 @@ impl Idm {
         let square = ratio * ratio;
         (self.gap + v * self.headway) / (1.0 - square * square).max(0.0).sqrt()
     }
-}
-
-/// The greater of a number and a bound, which is one; a single instruction, where the language's own looks for what is none in both.
-#[inline]
-pub(crate) fn greater(number: f64, bound: f64) -> f64 {
-    if number > bound { number } else { bound }
-}
-
-/// The less of the two.
-#[inline]
-pub(crate) fn less(number: f64, bound: f64) -> f64 {
-    if number < bound { number } else { bound }
 }
 
 /// Speed and way after `dt` s at constant acceleration, without ever going backwards.

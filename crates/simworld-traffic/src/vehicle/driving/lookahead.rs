@@ -2,8 +2,9 @@
 
 mod passing;
 
+use simworld_core::ops::{greater, lesser};
+
 use super::following::{Ahead, Leader};
-use super::idm::{greater, less};
 use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
 use super::otherwise::Otherwise;
 use crate::vehicle::foreign::strangers::{self, on_track};
@@ -162,7 +163,7 @@ impl View<'_> {
     /// The acceleration, m/s².
     #[inline]
     fn respond(&self, lane: &Lane<'_>, vehicle: &Vehicle) -> f64 {
-        let mut acceleration = less(self.follow_model(lane, vehicle), self.most);
+        let mut acceleration = lesser(self.follow_model(lane, vehicle), self.most);
         if self.takes_gap {
             acceleration = acceleration.max((acceleration * HURRY).min(self.idm.acceleration * HURRY));
         }
@@ -239,7 +240,7 @@ impl View<'_> {
 
     #[inline]
     fn see(&mut self, leader: Leader) {
-        self.gap = less(leader.gap, self.gap);
+        self.gap = lesser(leader.gap, self.gap);
         match &self.otherwise {
             None => {
                 let Leader { gap, speed, .. } = leader;
@@ -290,7 +291,7 @@ impl View<'_> {
     /// Must have a speed so far ahead, braking comfortably.
     fn slow_to(&mut self, speed: f64, distance: f64) {
         let allowed = (speed * speed + 2.0 * self.idm.deceleration * greater(distance, 0.0)).sqrt();
-        self.bend = less(greater(allowed, 0.5), self.bend);
+        self.bend = lesser(greater(allowed, 0.5), self.bend);
     }
 
     /// On a lane without leave to cross: its end, and those who have left it but for their rear.
