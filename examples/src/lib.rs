@@ -31,6 +31,11 @@ pub mod written;
 
 pub use ending::{Outcome, exit_code};
 
+/// Of all examples and tests that use this package: cities are many small lists, and what was given back is soon asked for again.
+#[cfg(feature = "mimalloc")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The page about one's own task, so that its code is run.
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/your-own-task.md")]
