@@ -1,18 +1,22 @@
 //! Demand: flows and trips that enter the network, wait outside while there is no room, and leave at the end of their route.
 
 mod activity;
+mod agenda;
 mod itinerary;
 mod matrix;
 mod schedule;
+mod timetable;
 
 use std::collections::{BTreeMap, VecDeque};
 
 pub use activity::{Activity, ActivityChains, DayTimes, Person, commuters};
-pub use itinerary::{Itinerary, Kerb, Stage, Whereabouts};
+pub use itinerary::{Itinerary, Kerb, PersonFlow, Stage, Whereabouts};
 pub use matrix::{OdMatrix, TimeProfile, Zone};
 pub use schedule::{Departing, Schedule};
 use serde::{Deserialize, Serialize};
 use simworld_core::seed::{Stream, StreamRng};
+#[cfg(feature = "sumo")]
+pub(crate) use timetable::beside;
 
 use crate::line::{self, Stop};
 use crate::vehicle::{Halt, Order, Then, Tracks, TypeIndex, VehicleKind, VehicleManager, draw_type};
@@ -69,18 +73,23 @@ impl Flow {
 
     /// Checks its rate and its times.
     pub(crate) fn validate(&self) -> Result<(), TrafficError> {
-        let checks = [
-            ("per_hour", self.per_hour, 1e-3, 1e4, "more than 0, at most 10 000 vehicles an hour"),
-            ("from", self.from, 0.0, f64::MAX, "0 s or later"),
-            ("until", self.until, self.from, f64::MAX, "a time after from"),
-        ];
-        for (field, value, low, high, allowed) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(TrafficError::Config { field, value, allowed });
-            }
-        }
-        Ok(())
+        check_times(self.per_hour, self.from, self.until)
     }
+}
+
+/// Checks the rate and the times of a flow.
+fn check_times(per_hour: f64, from: f64, until: f64) -> Result<(), TrafficError> {
+    let checks = [
+        ("per_hour", per_hour, 1e-3, 1e4, "more than 0, at most 10 000 an hour"),
+        ("from", from, 0.0, f64::MAX, "0 s or later"),
+        ("until", until, from, f64::MAX, "a time after from"),
+    ];
+    for (field, value, low, high, allowed) in checks {
+        if !(low..=high).contains(&value) {
+            return Err(TrafficError::Config { field, value, allowed });
+        }
+    }
+    Ok(())
 }
 
 /// Why a trip ended.

@@ -1,14 +1,15 @@
 //! A schedule: who departs when, on what route, by name.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
-use simworld_core::seed::{Seed, Stream, StreamRng};
+use simworld_core::seed::{Seed, Stream};
 
-use super::itinerary::{Names, Travellers};
-use super::{Flow, Itinerary, VehicleChoice, Whereabouts};
+use super::agenda::{Agenda, Beat};
+use super::itinerary::{Names, Surroundings, Travellers};
+use super::timetable::{Departures, Service, Timetable};
+use super::{Flow, Itinerary, PersonFlow, VehicleChoice, Whereabouts};
 use crate::output::Recorder;
-use crate::{Arrivals, Route, Stop, Traffic, TrafficError};
+use crate::{Route, Stop, Traffic, TrafficError};
 
 /// One vehicle that is to depart.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,15 +41,9 @@ struct Series {
     name: String,
     flow: Flow,
     vehicle: VehicleChoice,
-    /// At most so many.
-    number: u64,
     line: String,
-    drawn: u64,
-    stream: Stream,
+    beat: Beat,
 }
-
-/// When somebody is due: the bits of a time that is not negative are in its order.
-type Due = Reverse<(u64, usize)>;
 
 /// Who departs when. [`feed`](Self::feed) it to the traffic before every step.
 ///
@@ -75,19 +70,19 @@ type Due = Reverse<(u64, usize)>;
 #[derive(Clone, Debug)]
 pub struct Schedule {
     departing: Vec<Option<Departing>>,
-    due: BinaryHeap<Due>,
+    due: Agenda,
     series: Vec<Series>,
-    next_of_series: BinaryHeap<Due>,
+    next_of_series: Agenda,
     /// Names of those who were sent and have not entered, by the number that the traffic gave them.
     outside: BTreeMap<u64, Names>,
     /// Those under way, by number.
     present: BTreeMap<u32, Names>,
     travellers: Travellers,
+    /// What has a line and halts, for those who look for a way by it.
+    services: Vec<Service>,
+    /// When they halt where; made when somebody is under way, and anew when a service was added.
+    timetable: Option<Timetable>,
     stream: Stream,
-}
-
-fn due(time: f64, index: usize) -> Due {
-    Reverse((time.max(0.0).to_bits(), index))
 }
 
 impl Schedule {
@@ -95,19 +90,23 @@ impl Schedule {
     pub fn new(seed: Seed) -> Self {
         Self {
             departing: Vec::new(),
-            due: BinaryHeap::new(),
+            due: Agenda::default(),
             series: Vec::new(),
-            next_of_series: BinaryHeap::new(),
+            next_of_series: Agenda::default(),
             outside: BTreeMap::new(),
             present: BTreeMap::new(),
             travellers: Travellers::default(),
+            services: Vec::new(),
+            timetable: None,
             stream: seed.stream("traffic/schedule"),
         }
     }
 
     /// Adds one vehicle.
     pub fn add(&mut self, departing: Departing) {
-        self.due.push(due(departing.depart, self.departing.len()));
+        self.due.add(departing.depart, self.departing.len());
+        let once = Departures { first: departing.depart, headway: 1.0, until: f64::INFINITY, number: 1 };
+        self.serve(&departing.line, &departing.route, &departing.stops, once);
         self.departing.push(Some(departing));
     }
 
@@ -134,27 +133,49 @@ impl Schedule {
         flow.validate()?;
         let index = self.series.len();
         let stream = self.stream.indexed(index as u64);
-        let line = String::new();
-        let series = Series { name: name.into(), flow, vehicle, number, line, drawn: 0, stream };
-        let first =
-            series.flow.from + if series.flow.arrivals == Arrivals::Poisson { series.wait() } else { 0.0 };
-        if number > 0 && first < series.flow.until {
-            self.next_of_series.push(due(first, index));
+        let Flow { per_hour, arrivals, until, .. } = flow;
+        let beat = Beat { per_hour, arrivals, until, number, drawn: 0, stream };
+        if let Some(first) = beat.first(flow.from) {
+            self.next_of_series.add(first, index);
         }
-        self.series.push(series);
+        self.series.push(Series { name: name.into(), flow, vehicle, line: String::new(), beat });
         Ok(())
     }
 
     /// Says of which line the last flow is that was added, for those who ride.
     pub fn name_line(&mut self, line: impl Into<String>) {
-        if let Some(last) = self.series.last_mut() {
-            last.line = line.into();
+        let Some(last) = self.series.last_mut() else { return };
+        last.line = line.into();
+        let Series { line, flow: Flow { route, stops, per_hour, from, until, .. }, beat, .. } = last.clone();
+        let headway = 3600.0 / per_hour;
+        self.serve(&line, &route, &stops, Departures { first: from, headway, until, number: beat.number });
+    }
+
+    /// Takes note of a line, for those who look for a way by it.
+    fn serve(&mut self, line: &str, route: &Route, stops: &[Stop], departures: Departures) {
+        if !line.is_empty() && stops.len() > 1 {
+            let (line, route, stops) = (line.to_owned(), route.clone(), stops.to_vec());
+            self.services.push(Service { line, route, stops, departures });
+            self.timetable = None;
         }
     }
 
     /// Adds a person who walks, waits and rides.
     pub fn add_person(&mut self, person: Itinerary) {
         self.travellers.add(person);
+    }
+
+    /// Adds people who keep coming; they are called `name.0`, `name.1` and so on.
+    ///
+    /// # Errors
+    /// A rate that is not more than 0, or times that are none.
+    pub fn add_person_flow(&mut self, name: impl Into<String>, flow: PersonFlow) -> Result<(), TrafficError> {
+        self.travellers.add_flow(name.into(), flow, self.stream.named("people"))
+    }
+
+    /// The names of those who could not walk where they were to, or whose vehicle did not halt where they get out.
+    pub fn stranded(&self) -> impl Iterator<Item = &str> {
+        self.travellers.stranded()
     }
 
     /// Where those are who were added as persons.
@@ -185,26 +206,23 @@ impl Schedule {
         let now = traffic.seconds() + 1e-9;
         let mut count = 0;
         self.welcome(traffic);
-        self.travellers.feed(traffic, &self.present);
+        self.feed_people(traffic);
         for trip in traffic.ended() {
             self.present.remove(&trip.id);
         }
-        while let Some((time, index)) = take_due(&mut self.due, now) {
+        while let Some((time, index)) = self.due.take(now) {
             let Some(departing) = self.departing[index].take() else { continue };
             let Departing { name, route, vehicle, stops, line, .. } = departing;
             let number = traffic.insert_stopping(route, vehicle, time, stops)?;
             self.outside.insert(number, [name.clone(), name, line]);
             count += 1;
         }
-        while let Some((time, index)) = take_due(&mut self.next_of_series, now) {
+        while let Some((time, index)) = self.next_of_series.take(now) {
             let series = &mut self.series[index];
-            let name = format!("{}.{}", series.name, series.drawn);
-            series.drawn += 1;
-            let next = time + series.wait();
-            if series.drawn < series.number && next < series.flow.until {
-                self.next_of_series.push(due(next, index));
+            let name = format!("{}.{}", series.name, series.beat.drawn);
+            if let Some(next) = series.beat.count(time) {
+                self.next_of_series.add(next, index);
             }
-            let series = &self.series[index];
             let (route, stops) = (series.flow.route.clone(), series.flow.stops.clone());
             let number = traffic.insert_stopping(route, series.vehicle, time, stops)?;
             self.outside.insert(number, [name, series.name.clone(), series.line.clone()]);
@@ -223,32 +241,23 @@ impl Schedule {
         }
     }
 
+    /// People begin and end their stages.
+    fn feed_people(&mut self, traffic: &mut Traffic) {
+        if self.travellers.is_idle(traffic.seconds() + 1e-9) {
+            return;
+        }
+        let timetable =
+            self.timetable.get_or_insert_with(|| Timetable::new(traffic.network(), &self.services));
+        let halting = traffic.halting().collect();
+        self.travellers.feed(traffic, &Surroundings { vehicles: &self.present, timetable, halting });
+    }
+
     /// Takes note of who entered in the last step.
     fn welcome(&mut self, traffic: &Traffic) {
         for (id, number) in traffic.admitted() {
             if let Some(names) = number.and_then(|number| self.outside.remove(&number)) {
                 self.present.insert(id, names);
             }
-        }
-    }
-}
-
-fn take_due(heap: &mut BinaryHeap<Due>, now: f64) -> Option<(f64, usize)> {
-    let Reverse((bits, _)) = heap.peek()?;
-    if f64::from_bits(*bits) > now {
-        return None;
-    }
-    heap.pop().map(|Reverse((bits, index))| (f64::from_bits(bits), index))
-}
-
-impl Series {
-    /// Time to the next of them, s.
-    fn wait(&self) -> f64 {
-        let rate = self.flow.per_hour / 3600.0;
-        let mut rng: StreamRng = self.stream.indexed(self.drawn).rng();
-        match self.flow.arrivals {
-            Arrivals::Uniform => 1.0 / rate,
-            Arrivals::Poisson => rng.exponential(rate),
         }
     }
 }

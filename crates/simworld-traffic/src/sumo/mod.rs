@@ -11,6 +11,6 @@ mod xml;
 pub use error::{SumoError, SumoWarning};
 pub use net::SumoNet;
 pub use routes::{
-    Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoPlace, SumoStage, SumoStop, SumoType,
-    SumoVehicle, SumoWay,
+    Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoPersonFlow, SumoPlace, SumoStage,
+    SumoStop, SumoTimes, SumoType, SumoVehicle, SumoWay,
 };

@@ -54,7 +54,7 @@ fn everything_is_read() {
     let departs: Vec<f64> = demand.vehicles.iter().map(|vehicle| vehicle.depart).collect();
     assert_eq!(departs, [0.0, 60.0, 90.0, 1.0]);
     assert!(matches!(&demand.vehicles[2].way, SumoWay::Trip { via, .. } if via == &["C1C2"]));
-    let flow = |id: &str| demand.flows.iter().find(|flow| flow.id == id).unwrap();
+    let flow = |id: &str| demand.flows.iter().find(|flow| flow.id == id).unwrap().times;
     assert_eq!((flow("even").per_hour, flow("hour").per_hour, flow("five").per_hour), (120.0, 360.0, 360.0));
     assert_eq!((flow("five").number, flow("exp").arrivals), (5, Arrivals::Poisson));
     assert!((flow("exp").per_hour - 180.0).abs() < 1e-9 && (flow("chance").per_hour - 360.0).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! Flows.
+//! Flows: vehicles that keep coming, and when those of any flow come.
 
 use super::read::time;
 use super::{SumoStop, SumoWay};
@@ -6,13 +6,9 @@ use crate::Arrivals;
 use crate::sumo::SumoError;
 use crate::sumo::xml::Element;
 
-/// Vehicles that keep coming.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SumoFlow {
-    /// Its id; its vehicles are `id.0`, `id.1` and so on.
-    pub id: String,
-    /// Their type, if it names one.
-    pub vehicle_type: Option<String>,
+/// When those of a flow come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SumoTimes {
     /// When the first may come, s.
     pub begin: f64,
     /// When no more come, s.
@@ -23,6 +19,17 @@ pub struct SumoFlow {
     pub arrivals: Arrivals,
     /// At most so many.
     pub number: u64,
+}
+
+/// Vehicles that keep coming.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SumoFlow {
+    /// Its id; its vehicles are `id.0`, `id.1` and so on.
+    pub id: String,
+    /// Their type, if it names one.
+    pub vehicle_type: Option<String>,
+    /// When they come.
+    pub times: SumoTimes,
     /// Their way.
     pub way: SumoWay,
     /// Their stops on the way, beside those of their route.
@@ -36,6 +43,19 @@ const DAY: f64 = 86_400.0;
 
 impl SumoFlow {
     pub(super) fn of(element: &Element<'_>, way: SumoWay) -> Result<Self, SumoError> {
+        Ok(Self {
+            id: element.text("id")?,
+            vehicle_type: element.get("type").map(std::borrow::Cow::into_owned),
+            times: SumoTimes::of(element)?,
+            way,
+            stops: Vec::new(),
+            line: element.get("line").unwrap_or_default().into_owned(),
+        })
+    }
+}
+
+impl SumoTimes {
+    pub(super) fn of(element: &Element<'_>) -> Result<Self, SumoError> {
         let begin = time(element, "begin")?.unwrap_or(0.0);
         let end = time(element, "end")?;
         let number = element.index("number")?.map(|number| number as u64);
@@ -44,21 +64,19 @@ impl SumoFlow {
             return Err(element.error("end", "is before begin"));
         }
         let (per_hour, arrivals) = rate(element, until - begin, number)?;
-        Ok(Self {
-            id: element.text("id")?,
-            vehicle_type: element.get("type").map(std::borrow::Cow::into_owned),
-            begin,
-            // A number alone says when it ends.
-            end: if end.is_none() && number.is_some() { f64::MAX } else { until },
-            per_hour,
-            arrivals,
-            number: number.unwrap_or(u64::MAX),
-            way,
-            stops: Vec::new(),
-            line: element.get("line").unwrap_or_default().into_owned(),
-        })
+        // A number alone says when it ends.
+        let end = if end.is_none() && number.is_some() { f64::MAX } else { until };
+        Ok(Self { begin, end, per_hour, arrivals, number: number.unwrap_or(u64::MAX) })
+    }
+
+    /// The rate that a flow may have which is next to this one, an hour.
+    pub(super) fn allowed_rate(&self) -> f64 {
+        self.per_hour.clamp(RATES.0, RATES.1)
     }
 }
+
+/// The fewest and most an hour that a flow may bring.
+const RATES: (f64, f64) = (1e-3, 1e4);
 
 /// How many an hour, and how they come.
 fn rate(element: &Element<'_>, span: f64, number: Option<u64>) -> Result<(f64, Arrivals), SumoError> {
@@ -69,13 +87,13 @@ fn rate(element: &Element<'_>, span: f64, number: Option<u64>) -> Result<(f64, A
         && let Some(rate) = text.trim().strip_prefix("exp(").and_then(|rest| rest.strip_suffix(')'))
     {
         let rate = rate.parse().ok().filter(|rate: &f64| rate.is_finite());
-        let rate = rate.ok_or_else(|| element.error("period", "is no rate: give exp(vehicles a second)"))?;
+        let rate = rate.ok_or_else(|| element.error("period", "is no rate: give exp(number a second)"))?;
         return Ok((positive("period", rate)? * 3600.0, Arrivals::Poisson));
     }
     if let Some(period) = element.number("period")? {
         return Ok((3600.0 / positive("period", period)?, Arrivals::Uniform));
     }
-    for name in ["vehsPerHour", "perHour"] {
+    for name in ["vehsPerHour", "personsPerHour", "perHour"] {
         if let Some(rate) = element.number(name)? {
             return Ok((positive(name, rate)?, Arrivals::Uniform));
         }
@@ -86,6 +104,6 @@ fn rate(element: &Element<'_>, span: f64, number: Option<u64>) -> Result<(f64, A
     match number {
         Some(number) if number > 0 && span > 0.0 => Ok((number as f64 * 3600.0 / span, Arrivals::Uniform)),
         Some(0) => Ok((1.0, Arrivals::Uniform)),
-        _ => Err(element.error("period", "is missing: give period, vehsPerHour, probability or number")),
+        _ => Err(element.error("period", "is missing: give period, perHour, probability or number")),
     }
 }

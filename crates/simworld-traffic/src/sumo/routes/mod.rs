@@ -3,7 +3,8 @@
 //! Edges are named; [`SumoDemand::schedule`] finds them in a network. Trips take the quickest way. A flow comes at even
 //! times (`period`, `vehsPerHour`, `number`), at random (`period="exp(rate)"`), or, with `probability`, at random with
 //! that mean a second, which is what a chance a second comes to. Vehicles make their stops; people walk, wait, and ride in
-//! vehicles that halt where they get in and out. Flows of people and containers are warned of.
+//! vehicles that halt where they get in and out; trips of people (`personTrip`) go on foot and, with the mode `public`, by whatever
+//! lines are quickest when they begin. Containers, and people who drive by themselves, are warned of.
 //!
 //! Source of the format: SUMO user documentation, *Definition of Vehicles, Vehicle Types, and Routes*.
 
@@ -19,8 +20,8 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::{SumoError, SumoWarning};
-pub use flow::SumoFlow;
-pub use person::{SumoBusStop, SumoPerson, SumoPlace, SumoStage, SumoStop};
+pub use flow::{SumoFlow, SumoTimes};
+pub use person::{SumoBusStop, SumoPerson, SumoPersonFlow, SumoPlace, SumoStage, SumoStop};
 pub use types::SumoType;
 
 /// The way of a vehicle, in names of edges.
@@ -82,6 +83,8 @@ pub struct SumoDemand {
     pub bus_stops: Vec<SumoBusStop>,
     /// People.
     pub persons: Vec<SumoPerson>,
+    /// People who keep coming.
+    pub person_flows: Vec<SumoPersonFlow>,
     /// Distributions of routes.
     pub route_distributions: Vec<Distribution>,
     /// Vehicles and trips, in the order of the file.
@@ -104,7 +107,7 @@ impl SumoDemand {
     ///         <flow id="f" begin="0" end="3600" vehsPerHour="600"><route edges="a b c"/></flow>
     ///     </routes>"#.as_bytes(),
     /// )?;
-    /// assert_eq!((demand.vehicles[0].depart, demand.flows[0].per_hour), (90.0, 600.0));
+    /// assert_eq!((demand.vehicles[0].depart, demand.flows[0].times.per_hour), (90.0, 600.0));
     /// # Ok::<(), simworld_traffic::sumo::SumoError>(())
     /// ```
     ///

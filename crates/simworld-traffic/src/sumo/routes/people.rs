@@ -1,12 +1,9 @@
-//! From names of edges and stops to stops on legs, and to the itineraries of people.
+//! From names of edges and stops to stops on legs, and to the stages of people.
 
-use simworld_core::geometry::Point2;
-use simworld_core::id::LaneId;
-use simworld_core::net::polyline;
-
-use super::{SumoDemand, SumoPerson, SumoPlace, SumoStage, SumoStop};
+use super::{SumoDemand, SumoPlace, SumoStage, SumoStop};
+use crate::demand::beside;
 use crate::sumo::{SumoError, SumoNet, SumoWarning};
-use crate::{Itinerary, Kerb, Leg, PersonStage, Route, Stop};
+use crate::{Kerb, Leg, PersonStage, Route, Stop};
 
 impl SumoDemand {
     /// The stops that a vehicle can make on its way, which begins at a time; the others are warned of.
@@ -34,38 +31,50 @@ impl SumoDemand {
         Ok(made)
     }
 
-    /// The itinerary of a person.
-    pub(super) fn itinerary(&self, net: &SumoNet, person: &SumoPerson) -> Result<Itinerary, SumoError> {
-        let id = person.id.as_str();
+    /// What somebody of a name does.
+    pub(super) fn stages(
+        &self,
+        net: &SumoNet,
+        id: &str,
+        stages: &[SumoStage],
+    ) -> Result<Vec<PersonStage>, SumoError> {
         let mut here: Option<Kerb> = None;
-        let mut stages = Vec::new();
-        for stage in &person.stages {
+        let mut made = Vec::new();
+        for stage in stages {
             let begin = |from: &Option<String>| match (from, here) {
                 (Some(edge), None) => self.kerb(net, id, &SumoPlace::Edge(edge.clone()), Some(0.0)),
                 (_, Some(here)) => Ok(here),
                 (None, None) => Err(lost(id, "edge", "from")),
             };
+            let ends = |from: &Option<String>, to: &SumoPlace, end: Option<f64>| {
+                let (from, to) = (begin(from)?, self.kerb(net, id, to, end)?);
+                Ok::<_, SumoError>((beside(&net.network, from), beside(&net.network, to), to))
+            };
             let next = match stage {
-                SumoStage::Walk { from, to, end } => {
-                    let (from, to) = (begin(from)?, self.kerb(net, id, to, *end)?);
-                    let (a, b) = (point(net, from), point(net, to));
-                    stages.push(PersonStage::Walk { from: a, to: b });
-                    to
+                SumoStage::Walk { from, to, end } | SumoStage::Trip { from, to, end, public: false } => {
+                    let (from, to, next) = ends(from, to, *end)?;
+                    made.push(PersonStage::Walk { from, to });
+                    next
+                }
+                SumoStage::Trip { from, to, end, public: true } => {
+                    let (from, to, next) = ends(from, to, *end)?;
+                    made.push(PersonStage::Journey { from, to });
+                    next
                 }
                 SumoStage::Ride { from, to, lines } => {
                     let (from, to) = (begin(from)?, self.kerb(net, id, to, None)?);
-                    stages.push(PersonStage::Ride { from, to, lines: lines.clone() });
+                    made.push(PersonStage::Ride { from, to, lines: lines.clone() });
                     to
                 }
                 SumoStage::Stop(stop) => {
                     let until = stop.until.unwrap_or(0.0);
-                    stages.push(PersonStage::Wait { seconds: stop.duration, until });
+                    made.push(PersonStage::Wait { seconds: stop.duration, until });
                     self.kerb(net, id, &stop.place, stop.end)?
                 }
             };
             here = Some(next);
         }
-        Ok(Itinerary { name: person.id.clone(), depart: person.depart, stages })
+        Ok(made)
     }
 
     /// A place by name, and how far along its leg it is, m.
@@ -97,12 +106,6 @@ fn leg_of(net: &SumoNet, owner: &str, lane: &str) -> Result<Leg, SumoError> {
     let own = net.names.lane_id(lane).map(|lane| Leg::of(&net.network, lane));
     let edge = || lane.rsplit_once('_').and_then(|(edge, _)| net.names.leg(edge));
     own.or_else(edge).ok_or_else(|| lost(owner, "lane", lane))
-}
-
-/// Where a kerb is: on the outermost lane of its leg; people find the nearest walkway.
-fn point(net: &SumoNet, (leg, station): Kerb) -> Point2 {
-    let lane = leg.lanes(&net.network).last().copied().unwrap_or(LaneId(0));
-    polyline::at(&net.network.lanes[lane.index()].path, station).0
 }
 
 fn lost(owner: &str, what: &'static str, target: &str) -> SumoError {

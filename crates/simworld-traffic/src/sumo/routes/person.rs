@@ -1,5 +1,6 @@
-//! Stops of vehicles, and people: their walks, rides and stops.
+//! Stops of vehicles, and people, alone or as flows: their walks, rides, trips and stops.
 
+use super::SumoTimes;
 use super::read::time;
 use crate::sumo::SumoError;
 use crate::sumo::xml::Element;
@@ -60,8 +61,30 @@ pub enum SumoStage {
         /// The lines or vehicles.
         lines: Vec<String>,
     },
+    /// However they like: on foot, and by lines if `public` says so.
+    Trip {
+        /// From where; where they are, if it does not say.
+        from: Option<String>,
+        /// Where to.
+        to: SumoPlace,
+        /// Where on it, m.
+        end: Option<f64>,
+        /// Whether they take whatever line is quicker than walking.
+        public: bool,
+    },
     /// Waiting.
     Stop(SumoStop),
+}
+
+/// People who keep coming.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SumoPersonFlow {
+    /// Its id; its people are `id.0`, `id.1` and so on.
+    pub id: String,
+    /// When they set out.
+    pub times: SumoTimes,
+    /// What each of them does.
+    pub stages: Vec<SumoStage>,
 }
 
 /// A person.
@@ -108,6 +131,17 @@ impl SumoStage {
         let to = place(element, "to").or(last);
         let to = to.ok_or_else(|| element.error("to", "is missing: give edges, to or a busStop"))?;
         Ok(Self::Walk { from, to, end: element.number("arrivalPos")? })
+    }
+
+    /// A trip; whether some of its modes were passed over.
+    pub(super) fn trip(element: &Element<'_>) -> Result<(Self, bool), SumoError> {
+        let to = place(element, "to");
+        let to = to.ok_or_else(|| element.error("to", "is missing: give an edge or a busStop"))?;
+        let modes = element.words("modes");
+        let public = modes.iter().any(|mode| mode == "public");
+        let from = element.get("from").map(std::borrow::Cow::into_owned);
+        let others = modes.iter().any(|mode| mode != "public");
+        Ok((Self::Trip { from, to, end: element.number("arrivalPos")?, public }, others))
     }
 
     pub(super) fn ride(element: &Element<'_>) -> Result<Self, SumoError> {

@@ -4,13 +4,10 @@ use std::collections::BTreeMap;
 
 use simworld_core::seed::{Seed, StreamRng};
 
-use super::{Distribution, SumoDemand, SumoStop, SumoWay};
+use super::{Distribution, SumoDemand, SumoStop, SumoTimes, SumoWay};
 use crate::sumo::{SumoError, SumoNet, SumoWarning};
 use crate::vehicle::VehicleKind;
-use crate::{Departing, Flow, Leg, Route, Router, Schedule, VehicleChoice};
-
-/// The fewest and most vehicles an hour that a flow may bring.
-const RATES: (f64, f64) = (1e-3, 1e4);
+use crate::{Departing, Flow, Itinerary, Leg, PersonFlow, Route, Router, Schedule, VehicleChoice};
 
 impl SumoDemand {
     /// Who departs when on a network, and what of the demand cannot be driven there. Draws, of distributions and random
@@ -55,22 +52,28 @@ impl SumoDemand {
                     continue;
                 }
             };
-            let per_hour = flow.per_hour.clamp(RATES.0, RATES.1);
-            if per_hour != flow.per_hour {
-                let reason = format!("of {} vehicles an hour was made one of {per_hour}", flow.per_hour);
-                warnings.push(SumoWarning::new("flow", &flow.id, reason));
-            }
+            let per_hour = allowed_rate("flow", &flow.id, &flow.times, &mut warnings);
             let stops = self.stops_of(&flow.way, &flow.stops);
-            let stops = self.stops(net, (&flow.id, flow.begin), &stops, &route, &mut warnings)?;
-            let (arrivals, from, until) = (flow.arrivals, flow.begin, flow.end);
+            let stops = self.stops(net, (&flow.id, flow.times.begin), &stops, &route, &mut warnings)?;
+            let SumoTimes { begin: from, end: until, arrivals, number, .. } = flow.times;
             let flow_here = Flow { arrivals, stops, from, until, ..Flow::new(route, per_hour) };
-            match schedule.add_flow_of(&flow.id, flow_here, choice, flow.number) {
+            match schedule.add_flow_of(&flow.id, flow_here, choice, number) {
                 Ok(()) => schedule.name_line(&flow.line),
                 Err(error) => warnings.push(SumoWarning::new("flow", &flow.id, error.to_string())),
             }
         }
         for person in &self.persons {
-            schedule.add_person(self.itinerary(net, person)?);
+            let stages = self.stages(net, &person.id, &person.stages)?;
+            schedule.add_person(Itinerary { name: person.id.clone(), depart: person.depart, stages });
+        }
+        for flow in &self.person_flows {
+            let stages = self.stages(net, &flow.id, &flow.stages)?;
+            let per_hour = allowed_rate("personFlow", &flow.id, &flow.times, &mut warnings);
+            let SumoTimes { begin: from, end: until, arrivals, number, .. } = flow.times;
+            let people = PersonFlow { stages, per_hour, arrivals, from, until, number };
+            if let Err(error) = schedule.add_person_flow(&flow.id, people) {
+                warnings.push(SumoWarning::new("personFlow", &flow.id, error.to_string()));
+            }
         }
         warnings.sort();
         Ok((schedule, warnings))
@@ -161,6 +164,16 @@ impl Plan<'_> {
             .map(|()| route)
             .map_err(|error| format!("was left out: {error}")))
     }
+}
+
+/// The rate of a flow, an hour, or the next that one may have, of which is warned.
+fn allowed_rate(what: &'static str, id: &str, times: &SumoTimes, warnings: &mut Vec<SumoWarning>) -> f64 {
+    let per_hour = times.allowed_rate();
+    if per_hour != times.per_hour {
+        let reason = format!("of {} an hour was made one of {per_hour}", times.per_hour);
+        warnings.push(SumoWarning::new(what, id, reason));
+    }
+    per_hour
 }
 
 fn dangling(owner: &str, what: &'static str, target: &str) -> SumoError {

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::io::BufRead;
 
 use super::{
-    Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoStage, SumoStop, SumoType, SumoVehicle,
-    SumoWay,
+    Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoPersonFlow, SumoStage, SumoStop,
+    SumoTimes, SumoType, SumoVehicle, SumoWay,
 };
 use crate::sumo::xml::{self, Element, Visit};
 use crate::sumo::{SumoError, SumoWarning};
@@ -42,6 +42,7 @@ enum Open {
     Types,
     Routes,
     Person,
+    PersonFlow,
     /// One that was left out.
     Ignored,
 }
@@ -75,19 +76,17 @@ impl Visit for State {
             "stop" => self.stop(element)?,
             "busStop" => self.demand.bus_stops.push(SumoBusStop::of(element)?),
             "person" => self.person(element)?,
-            "walk" | "ride" if matches!(self.open, Open::Person) => {
-                let is_walk = element.name() == "walk";
-                let stage = if is_walk { SumoStage::walk(element)? } else { SumoStage::ride(element)? };
-                if let Some(person) = self.demand.persons.last_mut() {
-                    person.stages.push(stage);
-                }
+            "personFlow" => self.person_flow(element)?,
+            "walk" | "ride" | "personTrip" if matches!(self.open, Open::Person | Open::PersonFlow) => {
+                let stage = self.person_stage(element)?;
+                self.stage(stage);
             }
-            "personFlow" | "container" | "containerFlow" => {
+            "container" | "containerFlow" => {
                 self.open = Open::Ignored;
-                self.warn("person", element, "has no counterpart: it was left out");
+                self.warn("container", element, "has no counterpart: it was left out");
             }
-            "personTrip" | "transport" | "tranship" => {
-                self.warn("person", element, "has a stage without counterpart: it was left out");
+            "transport" | "tranship" => {
+                self.warn("container", element, "has a stage without counterpart: it was left out");
             }
             _ if depth == 1 => self.warn("element", element, "has no counterpart: it was left out"),
             _ => {}
@@ -175,7 +174,7 @@ impl State {
                     distribution.choices.push((id, weight));
                 }
             }
-            Open::Ignored | Open::Person => {}
+            Open::Ignored | Open::Person | Open::PersonFlow => {}
             Open::None | Open::Types => {
                 element.text("id")?;
                 self.add_route(element, edges);
@@ -210,13 +209,48 @@ impl State {
         };
         if let Some(stops) = own {
             stops.push(stop);
-        } else if let (Open::Person, Some(person)) = (&self.open, demand.persons.last_mut()) {
-            person.stages.push(SumoStage::Stop(stop));
+        } else if matches!(self.open, Open::Person | Open::PersonFlow) {
+            self.stage(SumoStage::Stop(stop));
         } else if let Some(route) = &self.route {
             demand.route_stops.push((route.clone(), stop));
         } else {
             self.warn("stop", element, "is nobody's: it was left out");
         }
+        Ok(())
+    }
+
+    /// One stage of people.
+    fn person_stage(&mut self, element: &Element<'_>) -> Result<SumoStage, SumoError> {
+        match element.name() {
+            "walk" => SumoStage::walk(element),
+            "ride" => SumoStage::ride(element),
+            _ => {
+                let (trip, by_others) = SumoStage::trip(element)?;
+                if by_others {
+                    let reason = "has modes without counterpart: one walks, and rides if it says public";
+                    self.warn("personTrip", element, reason);
+                }
+                Ok(trip)
+            }
+        }
+    }
+
+    /// What the person, or those of the flow, that are being read do next.
+    fn stage(&mut self, stage: SumoStage) {
+        let stages = match self.open {
+            Open::Person => self.demand.persons.last_mut().map(|person| &mut person.stages),
+            Open::PersonFlow => self.demand.person_flows.last_mut().map(|flow| &mut flow.stages),
+            _ => None,
+        };
+        if let Some(stages) = stages {
+            stages.push(stage);
+        }
+    }
+
+    fn person_flow(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
+        let (id, times) = (element.text("id")?, SumoTimes::of(element)?);
+        self.demand.person_flows.push(SumoPersonFlow { id, times, stages: Vec::new() });
+        self.open = Open::PersonFlow;
         Ok(())
     }
 
