@@ -22,6 +22,21 @@ fn a_folder_that_holds_something_is_left_alone() {
 }
 
 #[test]
+fn a_city_that_is_not_there_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let stem = folder.path().join("run");
+    let numbered = || OutputFolder::create_numbered(stem.to_str().unwrap()).unwrap();
+    let config = RunConfig { city_file: Some(folder.path().join("gone.simcity")), ..small(10) };
+    let output = numbered();
+    let error = play(&config, &output, &Watch::silent()).unwrap_err();
+    assert!(error.to_string().contains("gone.simcity"), "{error}");
+    assert!(std::fs::read_dir(output.path()).unwrap().next().is_none(), "the folder is empty");
+    assert_eq!(numbered().path(), output.path(), "the next run takes it");
+    output.write("config.toml", "").unwrap();
+    assert_ne!(numbered().path(), output.path());
+}
+
+#[test]
 fn an_interrupted_run_leaves_a_whole_log() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");

@@ -58,12 +58,14 @@ impl OutputFolder {
         Ok(Self { path: path.to_owned() })
     }
 
-    /// Makes the first folder `stem-1`, `stem-2` ... that does not exist yet: what a run without `--out` uses.
+    /// Makes the first folder `stem-1`, `stem-2` ... that does not exist yet or is empty: what a run without `--out` uses.
     ///
     /// # Errors
     /// None can be made.
     pub fn create_numbered(stem: &str) -> Result<Self, OutputError> {
-        let path = (1..u32::MAX).map(|n| PathBuf::from(format!("{stem}-{n}"))).find(|path| !path.exists());
+        let is_free =
+            |path: &PathBuf| std::fs::read_dir(path).map_or(!path.exists(), |mut held| held.next().is_none());
+        let path = (1..u32::MAX).map(|n| PathBuf::from(format!("{stem}-{n}"))).find(is_free);
         Self::create(&path.unwrap_or_else(|| PathBuf::from(stem)))
     }
 

@@ -88,8 +88,9 @@ pub struct SeedRun {
 /// # Errors
 /// The first seed that failed, or a file that cannot be written.
 pub fn play(config: &RunConfig, folder: &OutputFolder, watch: &Watch) -> Result<RunReport, RunError> {
-    folder.write("config.toml", config.to_toml()?)?;
+    // A city that is not there leaves nothing behind.
     let (city, warnings) = make_city(config)?;
+    folder.write("config.toml", config.to_toml()?)?;
     if !warnings.is_empty() {
         let lines: Vec<String> = warnings.iter().map(ToString::to_string).collect();
         folder.write("warnings.txt", lines.join("\n"))?;
