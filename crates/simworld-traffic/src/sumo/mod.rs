@@ -9,7 +9,7 @@ mod routes;
 mod xml;
 
 pub use error::{SumoError, SumoWarning};
-pub use net::SumoNet;
+pub use net::{SumoNet, SumoPrograms};
 pub use routes::{
     Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoPersonFlow, SumoPlace, SumoStage,
     SumoStop, SumoTimes, SumoType, SumoVehicle, SumoWay,

@@ -4,3 +4,4 @@
 mod sumo_demand;
 mod sumo_networks;
 mod sumo_people;
+mod sumo_programs;

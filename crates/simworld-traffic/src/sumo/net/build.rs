@@ -10,7 +10,7 @@ use simworld_core::net::{
 
 use super::pair::{Pair, pairs};
 use super::raw::{Edge, Function, Lane, Raw, Usage};
-use super::{SumoNet, ways};
+use super::{SumoNet, SumoPrograms, ways};
 use crate::sumo::{SumoError, SumoWarning};
 use crate::{Leg, NetworkNames};
 
@@ -43,6 +43,7 @@ pub(super) struct Build {
     /// Of each junction of the file its intersection; none for those within others.
     pub(super) places: Vec<Option<IntersectionId>>,
     pub(super) side: DrivingSide,
+    pub(super) programs: SumoPrograms,
 }
 
 /// Builds the network of a file.
@@ -57,6 +58,7 @@ pub(super) fn build(raw: Raw) -> Result<SumoNet, SumoError> {
         roads: BTreeMap::new(),
         places: Vec::new(),
         side,
+        programs: SumoPrograms::default(),
     };
     let junctions = build.add_junctions(&raw)?;
     let pairs = pairs(&raw.edges, side);
@@ -71,11 +73,12 @@ pub(super) fn build(raw: Raw) -> Result<SumoNet, SumoError> {
     build.settle(&raw, &ways);
     let crossings = build.add_crossings(&raw);
     build.add_signals(&raw, &ways, &crossings)?;
-    let Build { builder, names, mut warnings, .. } = build;
+    let Build { builder, names, mut warnings, programs, .. } = build;
     let network = builder.finish()?;
     warnings.sort();
     let names = names.indexed();
-    Ok(SumoNet { network, names, warnings, offset: raw.offset, projection: raw.projection })
+    let Raw { offset, projection, .. } = raw;
+    Ok(SumoNet { network, names, programs, warnings, offset, projection })
 }
 
 fn edge_kinds(raw: &Raw) -> Result<BTreeMap<String, EdgeKind>, SumoError> {

@@ -4,13 +4,14 @@
 //! lanes both ways, any other edge a one-way road of its own. Lanes keep their shapes, widths, speeds and users;
 //! connections run along the internal lanes of the file, a turn in two pieces as one way. What touches and who gives
 //! way is what the file's right-of-way requests say. Signals become fixed plans with the file's offsets, one an
-//! intersection; links that always show the same aspect are one group, those of vehicles before those of people.
+//! intersection, and those that follow their vehicles a policy beside ([`SumoPrograms`]); links that always show the same aspect are one group, those of vehicles before those of people.
 //! Lanes for people alone become sidewalks, crossings crossings.
 //!
 //! Source of the format: SUMO user documentation, *Networks/SUMO Road Networks*.
 
 mod build;
 mod pair;
+mod programs;
 mod raw;
 mod signals;
 mod walk;
@@ -24,6 +25,7 @@ use simworld_core::net::RoadNetwork;
 
 use super::{SumoError, SumoWarning};
 use crate::NetworkNames;
+pub use programs::SumoPrograms;
 
 /// A network that was read, with the names that the file gives its parts.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +34,8 @@ pub struct SumoNet {
     pub network: RoadNetwork,
     /// The ids of edges, lanes, internal lanes and junctions.
     pub names: NetworkNames,
+    /// How its signals go on: by the clock unless the traffic has these as its policy.
+    pub programs: SumoPrograms,
     /// What has no counterpart here, or not quite, sorted.
     pub warnings: Vec<SumoWarning>,
     /// What was added to projected coordinates to give those of the file, m.

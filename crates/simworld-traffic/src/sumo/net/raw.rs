@@ -102,7 +102,20 @@ pub(super) struct Logic {
     pub(super) program: String,
     pub(super) kind: String,
     pub(super) offset: f64,
-    pub(super) phases: Vec<(f64, Vec<u8>)>,
+    /// The longest gap in which a phase goes on that follows its vehicles, s, if the file says it.
+    pub(super) longest_gap: Option<f64>,
+    pub(super) phases: Vec<LogicPhase>,
+}
+
+/// One phase of a program.
+#[derive(Clone, Debug)]
+pub(super) struct LogicPhase {
+    /// By the clock, s.
+    pub(super) duration: f64,
+    /// Its shortest and longest duration where it follows its vehicles, s.
+    pub(super) bounds: (f64, f64),
+    /// What each link shows, a letter each.
+    pub(super) state: Vec<u8>,
 }
 
 /// All of a file.
@@ -115,6 +128,8 @@ pub(super) struct Raw {
     pub(super) junctions: Vec<Junction>,
     pub(super) connections: Vec<Connection>,
     pub(super) logics: Vec<Logic>,
+    /// Whether the last of them is being read.
+    is_in_logic: bool,
     /// The edges of roundabouts.
     pub(super) rings: Vec<String>,
 }
@@ -149,14 +164,18 @@ impl Visit for Raw {
                 }
             }
             ("connection", 1) => push("connections", &mut self.connections, connection(element)?)?,
-            ("tlLogic", 1) => push("signals", &mut self.logics, logic(element)?)?,
+            ("tlLogic", 1) => {
+                self.is_in_logic = true;
+                push("signals", &mut self.logics, logic(element)?)?;
+            }
             ("phase", 2) => {
                 if let Some(logic) = self.logics.last_mut() {
-                    let duration = element.required_number("duration")?;
-                    if !(0.0..=86_400.0).contains(&duration) {
-                        return Err(element.error("duration", "is out of range: give 0 to 86 400 s"));
-                    }
-                    push("phases", &mut logic.phases, (duration, element.text("state")?.into_bytes()))?;
+                    push("phases", &mut logic.phases, phase(element)?)?;
+                }
+            }
+            ("param", 2) if element.get("key").as_deref() == Some("max-gap") => {
+                if let (true, Some(logic)) = (self.is_in_logic, self.logics.last_mut()) {
+                    logic.longest_gap = Some(element.required_number("value")?);
                 }
             }
             ("roundabout", 1) => self.rings.extend(element.words("edges")),
@@ -165,7 +184,8 @@ impl Visit for Raw {
         Ok(())
     }
 
-    fn end(&mut self, _: &str, _: usize) -> Result<(), SumoError> {
+    fn end(&mut self, name: &str, _: usize) -> Result<(), SumoError> {
+        self.is_in_logic &= name != "tlLogic";
         Ok(())
     }
 }
@@ -276,6 +296,21 @@ fn logic(element: &Element<'_>) -> Result<Logic, SumoError> {
         program: element.get("programID").unwrap_or_default().into_owned(),
         kind: element.get("type").unwrap_or_default().into_owned(),
         offset: element.number("offset")?.unwrap_or(0.0),
+        longest_gap: None,
         phases: Vec::new(),
     })
+}
+
+fn phase(element: &Element<'_>) -> Result<LogicPhase, SumoError> {
+    let time = |name: &'static str, value: f64| {
+        let is_one = (0.0..=86_400.0).contains(&value);
+        if is_one { Ok(value) } else { Err(element.error(name, "is out of range: give 0 to 86 400 s")) }
+    };
+    let duration = time("duration", element.required_number("duration")?)?;
+    let bound = |name: &'static str| time(name, element.number(name)?.unwrap_or(duration));
+    let bounds = (bound("minDur")?, bound("maxDur")?);
+    if bounds.0 > bounds.1 {
+        return Err(element.error("minDur", "is more than maxDur"));
+    }
+    Ok(LogicPhase { duration, bounds, state: element.text("state")?.into_bytes() })
 }

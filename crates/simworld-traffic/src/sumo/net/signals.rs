@@ -6,7 +6,7 @@ use simworld_core::id::IntersectionId;
 use simworld_core::net::{Aspect, Phase, SignalGroup};
 
 use super::build::Build;
-use super::raw::{Logic, Raw};
+use super::raw::{Logic, LogicPhase, Raw};
 use super::walk::Walk;
 use super::ways::Way;
 use crate::sumo::{SumoError, SumoWarning};
@@ -31,7 +31,7 @@ impl Build {
                 self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
                 continue;
             }
-            if logic.kind != "static" && !logic.kind.is_empty() {
+            if !matches!(logic.kind.as_str(), "static" | "actuated" | "") {
                 let reason = format!("is {}: here it runs by the clock until it gets a policy", logic.kind);
                 self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
             }
@@ -76,7 +76,7 @@ impl Build {
     ) -> Result<(), SumoError> {
         // A link that is off in each phase has no light.
         let is_off = |link: usize| {
-            let mut letters = logic.phases.iter().map(|(_, state)| state.get(link));
+            let mut letters = logic.phases.iter().map(|phase| phase.state.get(link));
             letters.all(|letter| matches!(letter, Some(b'O')))
         };
         let lit = || links.iter().filter(|(_, link)| !is_off(*link));
@@ -100,6 +100,10 @@ impl Build {
             self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
             return Ok(());
         }
+        if logic.kind == "actuated" {
+            let bounds = shown(logic).map(|(_, phase)| phase.bounds).collect();
+            self.programs.add(place, logic.longest_gap, bounds);
+        }
         let cycle: f64 = phases.iter().map(|phase| phase.duration).sum();
         // A positive offset delays the program; here it is the time into the cycle at the start.
         let offset = (-logic.offset).rem_euclid(cycle);
@@ -118,8 +122,8 @@ impl Build {
 
 /// What a link shows in each phase.
 fn column(logic: &Logic, link: usize) -> Result<Vec<Aspect>, SumoError> {
-    let shown = |(_, state): &(f64, Vec<u8>)| {
-        let letter = state.get(link).ok_or_else(|| SumoError::Attribute {
+    let shown = |phase: &LogicPhase| {
+        let letter = phase.state.get(link).ok_or_else(|| SumoError::Attribute {
             element: "tlLogic".to_owned(),
             id: logic.id.clone(),
             attribute: "state",
@@ -135,15 +139,20 @@ fn column(logic: &Logic, link: usize) -> Result<Vec<Aspect>, SumoError> {
     logic.phases.iter().map(shown).collect()
 }
 
-/// The phases with groups counted from zero; those without duration are left out.
+/// The phases that are shown, with their numbers: those without duration are left out.
+fn shown(logic: &Logic) -> impl Iterator<Item = (usize, &LogicPhase)> {
+    logic.phases.iter().enumerate().filter(|(_, phase)| phase.duration > 0.0)
+}
+
+/// The phases with groups counted from zero.
 fn phases(logic: &Logic, groups: &[&Column]) -> Vec<Phase> {
-    let all = logic.phases.iter().enumerate().filter(|(_, (duration, _))| *duration > 0.0);
-    all.map(|(index, (duration, _))| {
-        let showing = |aspect: Aspect| {
-            let shows = groups.iter().enumerate().filter(move |(_, group)| group.1[index] == aspect);
-            shows.map(|(rank, _)| SignalGroup(rank as u32)).collect()
-        };
-        Phase { duration: *duration, green: showing(Aspect::Green), yellow: showing(Aspect::Yellow) }
-    })
-    .collect()
+    shown(logic)
+        .map(|(index, phase)| {
+            let showing = |aspect: Aspect| {
+                let shows = groups.iter().enumerate().filter(move |(_, group)| group.1[index] == aspect);
+                shows.map(|(rank, _)| SignalGroup(rank as u32)).collect()
+            };
+            Phase { duration: phase.duration, green: showing(Aspect::Green), yellow: showing(Aspect::Yellow) }
+        })
+        .collect()
 }
