@@ -26,6 +26,7 @@ pub mod net;
 pub mod ops;
 pub mod passage;
 pub mod patch;
+pub mod rare;
 pub mod record;
 pub mod scene;
 pub mod seam;

@@ -28,7 +28,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, bounds};
 use simworld_core::id::{IntersectionId, RoadId};
-use simworld_core::net::{CrossSection, RoadClass, Street, TurnLanes};
+use simworld_core::net::{CrossSection, RoadClass, Street};
 
 pub use error::EditError;
 pub use in_world::{CityInWorld, FollowError, Followed};
@@ -201,7 +201,6 @@ impl CityEditor {
             section: part.sections.len() as u32,
             name: new.name.as_ref().map(|_| part.names.len() as u32),
             speed_limit: new.speed_limit,
-            turns: TurnLanes::default(),
             level: new.level,
             ..Street::simple(0, 0)
         };

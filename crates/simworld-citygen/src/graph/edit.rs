@@ -215,7 +215,8 @@ impl Edit<'_> {
         let kept = first.profile.partition_point(|(at, _)| *at < station);
         let beyond = first.profile.split_off(kept);
         let before = first.profile.last().copied().unwrap_or((0.0, from));
-        second.profile = beyond.iter().map(|(at, height)| (at - station, *height)).collect();
+        let moved = beyond.iter().map(|(at, height)| (at - station, *height));
+        second.profile = moved.collect::<Vec<_>>().into();
         let rest: f64 = course.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>()
             + (self.graph.nodes[second.to].at - course[course.len() - 1]).norm();
         let after = beyond.first().copied().unwrap_or((rest, to));

@@ -187,7 +187,7 @@ fn raise(plan: &mut StreetPlan, grid: &Grid, grade: f64) {
         let street = &plan.streets[index];
         let line = plan.centerline(street);
         let ends = (plan.elevation(street.from), plan.elevation(street.to));
-        plan.streets[index].profile = profile(grid, &line, ends, grade);
+        plan.streets[index].profile = profile(grid, &line, ends, grade).into();
     }
 }
 

@@ -199,15 +199,21 @@ fn has_separating_side(a: &[Point2; 4], b: &(impl AsRef<[Point2]> + ?Sized)) -> 
 #[inline]
 fn separates(axis: &Vector2, a: &[Point2], b: &[Point2]) -> bool {
     let ((a_low, a_high), (b_low, b_high)) = (span(a, axis), span(b, axis));
-    a_low >= b_high || b_low >= a_high
+    (a_low >= b_high) | (b_low >= a_high)
 }
 
 #[inline]
 fn span(points: &[Point2], axis: &Vector2) -> (f64, f64) {
-    points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
-        let at = point.x * axis.x + point.y * axis.y;
-        (if at < low { at } else { low }, if at > high { at } else { high })
-    })
+    let at = |point: &Point2| point.x * axis.x + point.y * axis.y;
+    if let [a, b, c, d] = points {
+        // In pairs: no comparison waits for all those before.
+        let [a, b, c, d] = [a, b, c, d].map(at);
+        return (least(least(a, b), least(c, d)), most(most(a, b), most(c, d)));
+    }
+    points
+        .iter()
+        .map(at)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (least(low, at), most(high, at)))
 }
 
 #[cfg(test)]

@@ -207,7 +207,7 @@ fn raise_streets(
         let street = &plan.streets[index];
         let ends = (plan.elevation(street.from), plan.elevation(street.to));
         let course = Course { ends, length: lengths[index], grade: config.grade(street.class), tops };
-        plan.streets[index].profile = course.profile();
+        plan.streets[index].profile = course.profile().into();
     }
 }
 

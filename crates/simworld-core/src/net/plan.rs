@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Control, CrossSection, NetworkError, RoadClass, Turn, TurnLanes, TurnSet};
 use crate::geometry::Point2;
+use crate::rare::Rare;
 
 /// The shortest street that can hold two junctions and a lane between them, m.
 pub const SHORTEST_STREET: f64 = 15.0;
@@ -28,7 +29,7 @@ pub struct Street {
     /// Its speed limit, m/s; that of its class if there is none.
     pub speed_limit: Option<f64>,
     /// The arrows on its lanes.
-    pub turns: TurnLanes,
+    pub turns: Rare<TurnLanes>,
     /// Whether it is a part of the ring of a roundabout, where those in the ring go first.
     pub roundabout: bool,
     /// 0 on the ground, above it on bridges, below it in tunnels. Streets of different levels pass over one another where
@@ -39,7 +40,7 @@ pub struct Street {
     pub turning: [f64; 2],
     /// Heights on its way, as of a bridge: distance along the centreline from its beginning and height above the ground
     /// level of the world, m, ascending by distance. Between them and its nodes it rises evenly.
-    pub profile: Vec<(f64, f64)>,
+    pub profile: Rare<Vec<(f64, f64)>>,
     /// Whether there is a hammerhead at its beginning and at its end, if it is a dead end there and has no turning circle:
     /// a T as wide as [`HAMMERHEAD_WIDTH`](super::HAMMERHEAD_WIDTH), whose far kerb passes the end. What has no room along
     /// the street is left out. See [`StreetPlan::make_turning_room`].
@@ -57,11 +58,11 @@ impl Street {
             section: 0,
             name: None,
             speed_limit: None,
-            turns: TurnLanes::default(),
+            turns: Rare::default(),
             roundabout: false,
             level: 0,
             turning: [0.0; 2],
-            profile: Vec::new(),
+            profile: Rare::default(),
             hammerhead: [false; 2],
         }
     }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Turn;
+use crate::rare::Blank;
 
 /// A set of turns; an empty one allows whatever the junction does.
 ///
@@ -68,6 +69,10 @@ pub struct TurnLanes {
     pub forward: Vec<TurnSet>,
     /// On the lanes against it, before its beginning.
     pub backward: Vec<TurnSet>,
+}
+
+impl Blank for TurnLanes {
+    const BLANK: &'static Self = &Self { forward: Vec::new(), backward: Vec::new() };
 }
 
 impl TurnLanes {

@@ -125,11 +125,11 @@ impl From<Street> for net::Street {
             section: old.section,
             name: old.name,
             speed_limit: old.speed_limit,
-            turns: old.turns,
+            turns: old.turns.into(),
             roundabout: old.roundabout,
             level: old.level,
             turning: old.turning,
-            profile: old.profile,
+            profile: old.profile.into(),
             ..Self::simple(old.from, old.to)
         }
     }

@@ -54,7 +54,7 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
             speed_limit,
             level: character.level,
             roundabout: character.is_roundabout,
-            turns: turns(web, edge),
+            turns: turns(web, edge).into(),
             ..Street::simple(from, to)
         });
     }

@@ -135,6 +135,11 @@ impl Builder {
                 self.made.push(connection(network, &place, between, *movement, signal, &mut self.search));
             }
         }
+        let crossings = &network.intersections[id.index()].crossings;
+        // At most dead ends there is one way and nothing that it could touch.
+        if self.made.len() < first + 2 && crossings.is_empty() {
+            return;
+        }
         self.traces.clear();
         self.claims.clear();
         for (index, connection) in self.made.iter().enumerate().skip(first) {
@@ -142,7 +147,7 @@ impl Builder {
             self.claims.push(claim(network, connection, id, &mut self.traces));
         }
         self.set_conflicts(signals, first);
-        self.set_crossings(&network.intersections[id.index()].crossings, network);
+        self.set_crossings(crossings, network);
     }
 }
 

@@ -46,6 +46,11 @@ pub(super) fn lay(
     }
 }
 
+/// How many lanes a street of a cross-section has.
+pub(super) fn count(section: &CrossSection) -> usize {
+    section.lanes.iter().filter(|spec| spec.kind.is_driven() || spec.kind == LaneKind::Cycle).count()
+}
+
 /// What of a cross-section is neither driven by motor vehicles nor walked on.
 fn beside_lanes(section: &CrossSection, stations: (f64, f64)) -> impl Iterator<Item = Strip> + '_ {
     let is_meant = |(_, spec): &(f64, LaneSpec)| !spec.kind.is_driven() && spec.kind != LaneKind::Sidewalk;

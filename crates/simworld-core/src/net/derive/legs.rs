@@ -247,11 +247,12 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     let count = legs.len();
     let corner = |index: usize, legs: &[Leg]| Corner::between(&legs[index], &legs[(index + 1) % count]);
     // What comes before the first one lies between the last one and the first.
-    let Some(mut before_it) = count.checked_sub(1).map(|last| corner(last, legs)) else { return };
+    let Some(last) = count.checked_sub(1).map(|last| corner(last, legs)) else { return };
+    let mut before_it = last;
     for index in 0..count {
         let (before, after) = (&legs[(index + count - 1) % count], &legs[(index + 1) % count]);
         let leg = &legs[index];
-        let corners = (corner(index, legs), before_it);
+        let corners = (if index + 1 == count { last } else { corner(index, legs) }, before_it);
         before_it = corners.0;
         let (left, right) = (leg.left + leg.left_walk, leg.right + leg.right_walk);
         let on_left = corners.0.edge_meeting(left, after.right + after.right_walk);

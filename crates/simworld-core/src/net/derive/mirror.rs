@@ -33,8 +33,8 @@ pub(super) fn plan(plan: &StreetPlan) -> StreetPlan {
 
 fn mirror_turns(street: &mut Street) {
     let mirrored = |turns: &[TurnSet]| turns.iter().rev().map(|turn| turn.mirrored()).collect();
-    let TurnLanes { forward, backward } = &street.turns;
-    street.turns = TurnLanes { forward: mirrored(forward), backward: mirrored(backward) };
+    let TurnLanes { forward, backward } = &*street.turns;
+    street.turns = TurnLanes { forward: mirrored(forward), backward: mirrored(backward) }.into();
 }
 
 /// The network of a mirrored plan, as it is.

@@ -238,7 +238,7 @@ pub(super) fn road(plan: &StreetPlan, street: &Street) -> Road {
         sidewalks: [None; 2],
         roundabout: street.roundabout,
         level: street.level,
-        profile: street.profile.clone(),
+        profile: street.profile.to_vec(),
     }
 }
 

@@ -42,26 +42,39 @@ pub(super) fn add(
     for leg in legs.all() {
         cuts[leg.street][usize::from(!leg.at_start)] = Cut { stop: leg.stop, walk: leg.walk };
     }
+    let laid: Vec<usize> = plan.sections.iter().map(lanes::count).collect();
     let made = workers::collect(workers, streets.div_ceil(PART), |part| {
-        let mut stretch = Stretch::default();
-        stretch.roads.reserve_exact(PART);
-        for (street, cuts) in cuts.iter().enumerate().skip(part * PART).take(PART) {
-            stretch.add(plan, street, *cuts, config);
+        let own = part * PART..streets.min((part + 1) * PART);
+        // The first part stays where it is and takes in the others: it has room for all.
+        let housed = if part == 0 { &plan.streets[..] } else { &plan.streets[own.clone()] };
+        let lanes = housed.iter().map(|street| laid[street.section as usize]).sum();
+        let mut stretch = Stretch::with_capacity(housed.len(), lanes);
+        for street in own {
+            stretch.add(plan, street, cuts[street], config);
         }
         stretch
     });
     let lanes = made.iter().map(|stretch| stretch.lanes.len()).sum();
-    let mut ends = Vec::with_capacity(lanes);
-    network.roads.reserve_exact(streets);
-    network.lanes.reserve_exact(lanes);
-    network.sidewalks.reserve_exact(made.iter().map(|stretch| stretch.sidewalks.len()).sum());
+    let sidewalks = made.iter().map(|stretch| stretch.sidewalks.len()).sum();
+    let mut ends = Vec::new();
     for stretch in made {
-        stretch.append_to(network, &mut ends);
+        stretch.append_to(network, &mut ends, [streets, lanes, sidewalks]);
     }
     ends
 }
 
 impl Stretch {
+    /// With room for so many roads and lanes.
+    fn with_capacity(roads: usize, lanes: usize) -> Self {
+        Self {
+            roads: Vec::with_capacity(roads),
+            lanes: Vec::with_capacity(lanes),
+            ends: Vec::with_capacity(lanes),
+            sidewalks: Vec::with_capacity(2 * roads),
+            middle: Vec::new(),
+        }
+    }
+
     /// Adds the road of a street.
     fn add(&mut self, plan: &StreetPlan, street: usize, [start, end]: [Cut; 2], config: &NetworkConfig) {
         let Self { roads, lanes, ends, sidewalks, middle } = self;
@@ -84,17 +97,18 @@ impl Stretch {
         roads.push(road);
     }
 
-    /// Adds all to a network, with the numbers that they have there.
-    fn append_to(mut self, network: &mut RoadNetwork, ends: &mut Vec<Ends>) {
+    /// Adds all to a network that is to have so many roads, lanes and sidewalks, with the numbers that they have there.
+    fn append_to(mut self, network: &mut RoadNetwork, ends: &mut Vec<Ends>, counts: [usize; 3]) {
+        let [streets, of_lanes, of_sidewalks] = counts;
         let (lanes, sidewalks) = (network.lanes.len() as u32, network.sidewalks.len() as u32);
         for road in &mut self.roads {
             let own = road.forward.iter_mut().chain(&mut road.backward).chain(&mut road.cycle);
             own.for_each(|lane| lane.0 += lanes);
             road.sidewalks.iter_mut().flatten().for_each(|sidewalk| sidewalk.0 += sidewalks);
         }
-        network.roads.append(&mut self.roads);
-        network.lanes.append(&mut self.lanes);
-        network.sidewalks.append(&mut self.sidewalks);
-        ends.append(&mut self.ends);
+        workers::take_over(&mut network.roads, self.roads, streets);
+        workers::take_over(&mut network.lanes, self.lanes, of_lanes);
+        workers::take_over(&mut network.sidewalks, self.sidewalks, of_sidewalks);
+        workers::take_over(ends, self.ends, of_lanes);
     }
 }

@@ -4,10 +4,27 @@ use super::extent::Extent;
 use crate::geometry::{Point2, Vector2};
 use crate::ops::{greater, lesser};
 
-/// Farther away than this no middle of a path that bends is looked for, m.
+/// Farther away than this no middle of a path that bends is looked for, m; and no path across a junction leads there.
 const FARTHEST: f64 = 1e4;
+/// A shorter chord has no direction to put a box along, m.
+const SHORTEST: f64 = 1e-3;
 /// What is decided by less than this, m, is left to those who measure every piece, whatever was rounded.
 const SLACK: f64 = 1e-6;
+
+/// A box that holds a path, by its middle and half its sides.
+#[derive(Clone, Copy)]
+struct Hull {
+    middle: Point2,
+    along: Vector2,
+    across: Vector2,
+}
+
+impl Hull {
+    /// One that says nothing, about a point.
+    fn everywhere(middle: Point2) -> Self {
+        Self { middle, along: Vector2::new(FARTHEST, 0.0), across: Vector2::new(0.0, FARTHEST) }
+    }
+}
 
 /// A path seen along and across the straight way between its ends, and from the middle about which it bends.
 #[derive(Clone, Copy)]
@@ -19,6 +36,7 @@ pub(super) struct Shape {
     length: f64,
     /// What the path takes along and across its chord, times the length of that.
     beside: Extent,
+    hull: Hull,
     /// Of a path that bends the middle of the circle through its beginning, its middle and its end, and what the path takes of
     /// the distance from there.
     bend: Option<(Point2, Radii)>,
@@ -32,10 +50,14 @@ impl Shape {
         let start = path.first().copied().unwrap_or_else(Point2::origin);
         let end = path.last().copied().unwrap_or(start);
         let (chord, sag) = (end - start, longest * 0.25);
-        let shape = Self { start, end, chord, length: chord.norm(), beside: Extent::NONE, bend: None, sag };
+        let length = chord.norm();
+        let (beside, hull) = (Extent::NONE, Hull::everywhere(start));
+        let shape = Self { start, end, chord, length, beside, hull, bend: None, sag };
         let bend = path.get(path.len() / 2).and_then(|middle| shape.center(middle - start));
+        let beside = shape.seen(path);
         Self {
-            beside: shape.seen(path),
+            beside,
+            hull: if length > SHORTEST { shape.hull_of(&beside) } else { hull },
             bend: bend.map(|center| (center, Radii::of(path, center, sag))),
             ..shape
         }
@@ -65,10 +87,44 @@ impl Shape {
         extent
     }
 
+    /// What lies so far along and across the chord.
+    fn hull_of(&self, extent: &Extent) -> Hull {
+        let inverse = 0.5 / (self.length * self.length);
+        let middle = [0, 1].map(|axis| (extent.low[axis] + extent.high[axis]) * inverse);
+        let half = [0, 1].map(|axis| (extent.high[axis] - extent.low[axis]) * inverse);
+        let across = Vector2::new(-self.chord.y, self.chord.x);
+        Hull {
+            middle: self.start + self.chord * middle[0] + across * middle[1],
+            along: self.chord * half[0],
+            across: across * half[1],
+        }
+    }
+
+    fn seen_hull(&self, hull: &Hull) -> Extent {
+        let middle = self.locate(&hull.middle);
+        let half = [
+            self.chord.dot(&hull.along).abs() + self.chord.dot(&hull.across).abs(),
+            self.chord.perp(&hull.along).abs() + self.chord.perp(&hull.across).abs(),
+        ];
+        Extent {
+            low: [middle[0] - half[0], middle[1] - half[1]],
+            high: [middle[0] + half[0], middle[1] + half[1]],
+        }
+    }
+
+    /// Whether another path comes nearer than `limit` m, where that is plain from the box that holds it.
+    pub(super) fn touches_box(&self, other: &Self, limit: f64) -> Option<bool> {
+        self.decides(other, &self.seen_hull(&other.hull), limit)
+    }
+
     /// Whether another path comes nearer than `limit` m, where that is plain from here: it lies beside this one, or across it.
     pub(super) fn touches(&self, other: &Self, path: &[Point2], limit: f64) -> Option<bool> {
-        let seen = self.seen(path);
-        if self.beside.apart(&seen) > (limit + SLACK) * self.length {
+        self.decides(other, &self.seen(path), limit)
+    }
+
+    /// The same, by what another path takes, or what holds it.
+    fn decides(&self, other: &Self, seen: &Extent, limit: f64) -> Option<bool> {
+        if self.beside.apart(seen) > (limit + SLACK) * self.length {
             return Some(false);
         }
         // Who comes from one side of all of this one and leaves on the other, and is between its ends all the time, crosses it.
@@ -77,6 +133,13 @@ impl Shape {
         let (first, last) = (self.locate(&other.start)[1], self.locate(&other.end)[1]);
         let (low, high) = (self.beside.low[1] - slack, self.beside.high[1] + slack);
         (is_between && lesser(first, last) < low && greater(first, last) > high).then_some(true)
+    }
+
+    /// Whether the path plainly lies on one side of a line, by so much at least: both are times the length of the line's direction.
+    pub(super) fn is_aside(&self, point: Point2, along: Vector2, least: f64) -> bool {
+        let Hull { middle, along: own, across } = &self.hull;
+        let half = along.perp(own).abs() + along.perp(across).abs();
+        along.perp(&(middle - point)).abs() - half > least
     }
 
     /// Whether a segment plainly lies beside the path.

@@ -108,7 +108,11 @@ impl Traces {
             return false;
         }
         let [own, other] = [a, b].map(|trace| self.path(trace));
-        let plain = a.shape.touches(&b.shape, other, limit).or_else(|| b.shape.touches(&a.shape, own, limit));
+        // Of half of them the boxes that hold them say it.
+        let plain = (a.shape.touches_box(&b.shape, limit))
+            .or_else(|| b.shape.touches_box(&a.shape, limit))
+            .or_else(|| a.shape.touches(&b.shape, other, limit))
+            .or_else(|| b.shape.touches(&a.shape, own, limit));
         if let Some(touches) = plain {
             return touches;
         }
@@ -161,25 +165,31 @@ impl Traces {
         let mut strip = Extent::NONE;
         strip.add([start.x, start.y]);
         strip.add([end.x, end.y]);
-        if strip.apart(&trace.extent) > SLACK || trace.shape.is_beside(&start, &end) {
-            return false;
-        }
         // A piece with both ends on one side of the segment's line does not cross it.
         let along = end - start;
         let least = SLACK * along.norm();
-        let side = |point: Point2| along.perp(&(point - start));
+        let is_off = trace.shape.is_beside(&start, &end) | trace.shape.is_aside(start, along, least);
+        if (strip.apart(&trace.extent) > SLACK) | is_off {
+            return false;
+        }
+        let side = |point: &Point2| along.perp(&(point - start));
         let is_aside = |a: f64, b: f64| (a > least && b > least) || (a < -least && b < -least);
-        // A strip lies near one end of the paths that cross it.
-        let is_crossed = |piece: &[Point2]| {
-            !is_aside(side(piece[0]), side(piece[1]))
-                && polyline::crossing(piece[0], piece[1], start, end).is_some()
-        };
+        let is_crossed = |piece: &[Point2]| polyline::crossing(piece[0], piece[1], start, end).is_some();
         let path = self.path(trace);
-        let away = |point: Option<&Point2>| point.map_or(0.0, |point| (point - start).norm_squared());
-        if away(path.last()) < away(path.first()) {
-            path.windows(2).rev().any(is_crossed)
+        let (Some(first), Some(last)) = (path.first(), path.last()) else { return false };
+        // A strip lies near one end of the paths that cross it.
+        if (last - start).norm_squared() < (first - start).norm_squared() {
+            let mut there = side(last);
+            path.windows(2).rev().any(|piece| {
+                let here = std::mem::replace(&mut there, side(&piece[0]));
+                !is_aside(there, here) && is_crossed(piece)
+            })
         } else {
-            path.windows(2).any(is_crossed)
+            let mut here = side(first);
+            path.windows(2).any(|piece| {
+                let there = std::mem::replace(&mut here, side(&piece[1]));
+                !is_aside(there, here) && is_crossed(piece)
+            })
         }
     }
 
