@@ -40,8 +40,10 @@ impl Moment {
     pub(super) fn turn(&self) -> impl Fn(Track) -> bool {
         // Lanes are fewer than 2³¹, and there are no steps as short as that.
         let every = steps_of(LOOKS_BESIDE, self.dt).min(1 << 31);
-        let (every, now) = (every as u32, (self.step % every) as u32);
-        move |lane| (now + lane).is_multiple_of(every)
+        let now = self.step % every;
+        // Of numbers of 32 bits, multiples alone come out so small (Lemire, Kaser and Kurz 2019): no division for each lane.
+        let inverse = (u64::MAX / every).wrapping_add(1);
+        move |lane| (now + u64::from(lane)).wrapping_mul(inverse) <= inverse.wrapping_sub(1)
     }
 
     /// The same end of a step that began so long before it, s.

@@ -17,6 +17,7 @@ use simworld_core::net::Workers;
 use simworld_core::seed::Stream;
 
 use super::clock::Moment;
+use super::driving::idm::Driver;
 use super::driving::passing::Passings;
 use super::driving::sirens::Sirens;
 use super::foreign::controls::{Controls, hasty};
@@ -142,9 +143,9 @@ pub(crate) struct VehicleManager {
     /// What binds those whom somebody else drives, under the conditions of now.
     #[serde(skip)]
     hasty: Option<TrafficConfig>,
-    /// By what the drivers of each type measure how they come nearer, and the same of those.
+    /// The drivers of each type, and the same of those.
     #[serde(skip)]
-    closes_by: [Vec<f64>; 2],
+    drivers: [Vec<Driver>; 2],
     #[serde(skip)]
     pub(super) waits: Waits,
     /// Lanes whose first has lost patience.
@@ -210,8 +211,8 @@ impl VehicleManager {
             halts: &self.halts,
             controls: &self.controls,
             hasty: self.hasty.as_ref().unwrap_or(config),
-            closes_by: &self.closes_by[0],
-            hasty_closes_by: &self.closes_by[1],
+            drivers: &self.drivers[0],
+            hasty_drivers: &self.drivers[1],
             sirens: &self.sirens,
             passings: &self.passings,
             handed: &self.handed,
@@ -315,9 +316,9 @@ impl VehicleManager {
             self.hasty = Some(hasty(config));
         }
         let settings = [config, self.hasty.as_ref().unwrap_or(config)];
-        for (known, config) in self.closes_by.iter_mut().zip(settings) {
+        for (known, config) in self.drivers.iter_mut().zip(settings) {
             known.clear();
-            known.extend(config.types.iter().map(|row| row.driver.closes_by()));
+            known.extend(config.types.iter().map(Driver::of));
         }
     }
 

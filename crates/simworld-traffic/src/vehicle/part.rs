@@ -222,7 +222,7 @@ impl Part {
                 let count = steered.partition_point(|(track, _)| *track as usize <= local);
                 let (here, others) = steered.split_at(count);
                 steered = others;
-                let hasty = Scene { config: scene.hasty, closes_by: scene.hasty_closes_by, ..*scene };
+                let hasty = Scene { config: scene.hasty, drivers: scene.hasty_drivers, ..*scene };
                 let lane = Lane::new(self, &hasty, local, own_ghosts);
                 obey(scene, &lane, queue, here.iter().map(|(_, id)| *id), &mut accelerations[first..]);
             }

@@ -4,6 +4,7 @@ use simworld_core::net::Aspect;
 use simworld_core::seed::Stream;
 
 use super::clock::Moment;
+use super::driving::idm::Driver;
 use super::driving::passing::Passings;
 use super::driving::sirens::Sirens;
 use super::foreign::controls::Controls;
@@ -65,9 +66,9 @@ pub(crate) struct Scene<'a> {
     /// Who is driven by somebody else, and the settings that bind them.
     pub(crate) controls: &'a Controls,
     pub(crate) hasty: &'a TrafficConfig,
-    /// By what the drivers of each type measure how they come nearer, and those whom somebody else drives.
-    pub(crate) closes_by: &'a [f64],
-    pub(crate) hasty_closes_by: &'a [f64],
+    /// The drivers of each type, and those whom somebody else drives.
+    pub(crate) drivers: &'a [Driver],
+    pub(crate) hasty_drivers: &'a [Driver],
     /// Where drivers hear a siren.
     pub(crate) sirens: &'a Sirens,
     /// Who passes what stands on a lane.

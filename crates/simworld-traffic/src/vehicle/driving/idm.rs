@@ -1,7 +1,10 @@
 //! Car following: the Intelligent Driver Model (Treiber, Hennecke and Helbing 2000).
 
 use serde::{Deserialize, Serialize};
-use simworld_core::ops::greater;
+use simworld_core::ops::{greater, lesser};
+
+use crate::TrafficConfig;
+use crate::vehicle::VehicleType;
 
 /// The hardest braking of a car, m/s²: tyres on dry asphalt.
 pub const HARDEST_BRAKING: f64 = 9.0;
@@ -61,6 +64,12 @@ impl Idm {
         self.pressure_by(self.closes_by(), v, gap, leader)
     }
 
+    /// The speed of a driver with that share of the limit on a road, m/s.
+    #[inline]
+    pub(crate) fn free_speed(&self, config: &TrafficConfig, factor: f32, limit: f64) -> f64 {
+        lesser(f64::from(factor) * config.conditions.speed * limit, self.desired_speed)
+    }
+
     /// What the speed at which one comes nearer is measured by: twice the mean of one's accelerations, m/s².
     #[inline]
     pub(crate) fn closes_by(&self) -> f64 {
@@ -95,6 +104,25 @@ impl Idm {
         let ratio = v / self.desired_speed;
         let square = ratio * ratio;
         (self.gap + v * self.headway) / (1.0 - square * square).max(0.0).sqrt()
+    }
+}
+
+/// What a step asks of the drivers of a type: a line of the cache.
+#[repr(align(64))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Driver {
+    pub(crate) idm: Idm,
+    /// By what they measure how they come nearer, m/s².
+    pub(crate) closes_by: f64,
+    /// Whether there is no more to them than the IDM.
+    pub(crate) is_perfect: bool,
+}
+
+const _: () = assert!(size_of::<Driver>() == 64);
+
+impl Driver {
+    pub(crate) fn of(row: &VehicleType) -> Self {
+        Self { idm: row.driver, closes_by: row.driver.closes_by(), is_perfect: !row.drives_otherwise() }
     }
 }
 

@@ -1,10 +1,12 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
 mod passing;
+mod plain;
 
 use simworld_core::ops::{greater, lesser};
 
 use super::following::{Ahead, Leader};
+use super::idm::Driver;
 use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
 use super::otherwise::Otherwise;
 use crate::vehicle::foreign::strangers::{self, on_track};
@@ -67,12 +69,15 @@ impl<'a> Lane<'a> {
 
 /// The accelerations of the vehicles of a track, front to back, m/s².
 pub(in crate::vehicle) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], accelerations: &mut Vec<f64>) {
-    let mut leader = None;
-    accelerations.extend(queue.iter().map(|vehicle| acceleration(lane, vehicle, leader.replace(vehicle))));
+    let (is_plain, mut leader) = (lane.is_plain(), None);
+    accelerations.extend(queue.iter().map(|vehicle| {
+        let leader = leader.replace(vehicle);
+        let plain = if is_plain { lane.follow_on(vehicle, leader) } else { None };
+        plain.unwrap_or_else(|| acceleration(lane, vehicle, leader))
+    }));
 }
 
 /// The acceleration of a vehicle, m/s².
-#[inline]
 pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) -> f64 {
     let mut view = View::new(lane, vehicle);
     let pass = lane.scene.passings.of(vehicle.id);
@@ -136,25 +141,22 @@ impl<'a> View<'a> {
     #[inline]
     fn new(lane: &Lane<'a>, vehicle: &Vehicle) -> Self {
         let config = lane.scene.config;
-        let kind = config.vehicle_type(vehicle.row);
+        let Driver { idm, closes_by, is_perfect } = &lane.scene.drivers[usize::from(vehicle.row)];
+        let otherwise = || Otherwise::new(lane.scene, config.vehicle_type(vehicle.row), vehicle.id);
         Self {
-            idm: &kind.driver,
-            closes_by: lane.scene.closes_by[usize::from(vehicle.row)],
-            otherwise: kind.drives_otherwise().then(|| Otherwise::new(lane.scene, kind, vehicle.id)),
+            idm,
+            closes_by: *closes_by,
+            otherwise: (!is_perfect).then(otherwise),
             s: vehicle.s,
             v: vehicle.v,
             gap: f64::INFINITY,
             ahead: Ahead::NOTHING,
             factor: f64::from(vehicle.factor) * config.conditions.speed,
-            free: kind.free_speed(config, vehicle.factor, lane.limit),
-            bend: kind.free_speed(config, vehicle.factor, lane.bend),
+            free: idm.free_speed(config, vehicle.factor, lane.limit),
+            bend: idm.free_speed(config, vehicle.factor, lane.bend),
             most: f64::INFINITY,
             takes_gap: false,
-            closer: if lane.closes_up && vehicle.v < CLOSES_AT {
-                (kind.driver.gap - CLOSE).max(0.0)
-            } else {
-                0.0
-            },
+            closer: if lane.closes_up && vehicle.v < CLOSES_AT { (idm.gap - CLOSE).max(0.0) } else { 0.0 },
         }
     }
 }

@@ -340,9 +340,8 @@ impl Part {
         mut mind: impl FnMut(Precedence),
     ) {
         let tracks = scene.tracks;
-        let driver = &scene.config.vehicle_type(vehicle.row).driver;
+        let driver = &scene.drivers[usize::from(vehicle.row)].idm;
         let hardest = RELIES * driver.emergency_deceleration;
-        let sure = vehicle.v * (vehicle.v / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
         let is_held = |other| scene.junctions.is_held(other);
         for conflict in tracks.conflicts_held(way, &self.work.held, is_held) {
             let to_zone = conflict.own.enter() - front;
@@ -361,6 +360,7 @@ impl Part {
                     mind(Precedence::Follow { gap: ends.0 - front - (ends.1 - rear), speed: holder.v });
                 } else if rear < conflict.other.passed() && to_zone > -0.5 {
                     // So that it is gone when one could no longer stop for it.
+                    let sure = vehicle.v * (vehicle.v / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
                     let time = holder.clears(conflict, speed);
                     let open = holder.is_sure_to_clear(conflict, speed) - RELIES_FOR;
                     let arrives = 2.0 * (to_zone - vehicle.v * time) / (time * time).max(1e-9);

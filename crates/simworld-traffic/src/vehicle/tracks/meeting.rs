@@ -2,8 +2,6 @@
 
 use std::iter;
 
-use simworld_core::lists::Lists;
-
 use super::Track;
 use super::conflicts::Conflict;
 use super::layout::Layout;
@@ -11,13 +9,13 @@ use super::layout::Layout;
 /// The ways that meet one: from a number among the ways of its part on, a bit each, as many as it has conflicts, in the same order.
 /// None where they are too far from one another, as in very wide junctions: there one asks for each of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Meeting {
+pub(crate) struct Meeting {
     first: u32,
     ways: u64,
 }
 
 impl Meeting {
-    fn new(layout: &Layout, lanes: usize, way: usize, conflicts: &[Conflict]) -> Self {
+    pub(super) fn new(layout: &Layout, lanes: usize, way: usize, conflicts: &[Conflict]) -> Self {
         let place = |way: u32| layout.place(lanes as Track + way);
         let part = place(way as u32).part;
         let lanes_here = layout.parts[part as usize].lanes as u32;
@@ -33,6 +31,25 @@ impl Meeting {
             }
         }
         Self { first: first - lanes_here, ways }
+    }
+
+    /// Those conflicts of a way, which are `all` that it has, whose ways somebody holds.
+    #[inline]
+    pub(super) fn held<'a>(
+        self,
+        all: &'a [Conflict],
+        held: &Held,
+        is_held: impl Fn(u32) -> bool,
+    ) -> impl Iterator<Item = &'a Conflict> {
+        let Self { first, ways } = self;
+        let mut left = ways & held.from(first);
+        let at_once = iter::from_fn(move || {
+            let lowest = left & left.wrapping_neg();
+            left ^= lowest;
+            (lowest != 0).then(|| &all[(ways & (lowest - 1)).count_ones() as usize])
+        });
+        let one_by_one = if ways == 0 { all } else { &[] };
+        at_once.chain(one_by_one.iter().filter(move |conflict| is_held(conflict.way)))
     }
 }
 
@@ -62,36 +79,6 @@ impl Held {
     }
 }
 
-/// For each way the ways that meet it.
-#[derive(Clone, Debug)]
-pub(super) struct Meetings(Vec<Meeting>);
-
-impl Meetings {
-    pub(super) fn new(layout: &Layout, lanes: usize, conflicts: &Lists<Conflict>) -> Self {
-        Self((0..conflicts.len()).map(|way| Meeting::new(layout, lanes, way, &conflicts[way])).collect())
-    }
-
-    /// Those conflicts of a way, which are `all` that it has, whose ways somebody holds.
-    #[inline]
-    pub(super) fn held<'a>(
-        &self,
-        way: usize,
-        all: &'a [Conflict],
-        held: &Held,
-        is_held: impl Fn(u32) -> bool,
-    ) -> impl Iterator<Item = &'a Conflict> {
-        let Meeting { first, ways } = self.0[way];
-        let mut left = ways & held.from(first);
-        let at_once = iter::from_fn(move || {
-            let lowest = left & left.wrapping_neg();
-            left ^= lowest;
-            (lowest != 0).then(|| &all[(ways & (lowest - 1)).count_ones() as usize])
-        });
-        let one_by_one = if ways == 0 { all } else { &[] };
-        at_once.chain(one_by_one.iter().filter(move |conflict| is_held(conflict.way)))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
@@ -116,11 +103,11 @@ mod tests {
                 for way in layout.tracks[layout.lanes..].iter().map(|track| (track - lanes) as usize) {
                     let all = &tracks.conflicts[way];
                     let expected: Vec<&Conflict> = all.iter().filter(|other| is_held(other.way)).collect();
-                    let at_once = tracks.meetings.held(way, all, &held, |_| false);
+                    let at_once = tracks.ways[way].meeting.held(all, &held, |_| false);
                     assert_eq!(at_once.collect::<Vec<_>>(), expected, "{way}");
                     found += expected.len();
-                    let none = Meetings(vec![Meeting::default(); tracks.ways.len()]);
-                    assert!(none.held(way, all, &held, is_held).eq(expected), "{way} one by one");
+                    let one_by_one = Meeting::default().held(all, &held, is_held);
+                    assert!(one_by_one.eq(expected), "{way} one by one");
                 }
             }
         }

@@ -21,7 +21,7 @@ use closures::Closures;
 use conflicts::{Conflict, conflicts};
 use layout::{Layout, Place};
 use leading::is_sure;
-use meeting::{Held, Meetings};
+use meeting::{Held, Meeting};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::lists::Lists;
@@ -89,15 +89,20 @@ pub(crate) struct Way {
     pub(crate) stops: bool,
     /// Whether it turns and gives way.
     pub(crate) turns_by_gaps: bool,
-    /// Whether it leads over crossings.
+    /// Whether it leads over crossings, and whether nobody meets it or crosses it.
     pub(super) has_strips: bool,
+    is_alone: bool,
     /// Its number in its part, and where the lane is kept to which it leads.
     pub(super) local: u32,
     pub(super) there: Place,
     /// Its length, m, and the speed allowed on it by law and curvature, m/s.
     pub(super) length: f64,
     pub(super) speed: f64,
+    /// The ways that meet it: one asks for all of them who is there, and hardly ever for where they meet.
+    meeting: Meeting,
 }
+
+const _: () = assert!(size_of::<Way>() == 64);
 
 /// The network as drivers see it.
 #[derive(Clone, Debug)]
@@ -120,8 +125,6 @@ pub(crate) struct Tracks {
     sure: Vec<bool>,
     /// The connections whose vehicles could touch one on this connection, and where.
     pub(crate) conflicts: Lists<Conflict>,
-    /// A bit for each of them: one asks for all of them who is there, and hardly ever for where they meet.
-    meetings: Meetings,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Lists<(u32, f64)>,
     /// Ways so near to each connection that a long vehicle on either touches whoever is on the other in the turn, and those on
@@ -136,6 +139,8 @@ pub(crate) struct Tracks {
     pub(super) kinds: Vec<LaneKind>,
     /// Whether one can drive on from each lane without end.
     pub(super) leads_on: Vec<bool>,
+    /// Whether each lane is in a roundabout.
+    ring: Vec<bool>,
     /// Whether each lane is the last of its leg before the kerb or the cycle lane.
     pub(crate) outermost: Vec<bool>,
     /// How far to the left of each lane the parking strip at its kerb lies, m; 0 where there is none.
@@ -179,7 +184,15 @@ impl Tracks {
             let track = network.lanes.len() + index;
             let ends = (layout.local(track as Track), layout.place(network.connections[index].to.0));
             let has_strips = !strips[index].is_empty();
-            way(&network, index, ends, (length[track], speed[track]), has_strips)
+            let is_met =
+                !conflicts[index].is_empty() || !tight[index].is_empty() || !narrow[index].is_empty();
+            let meeting = Meeting::new(&layout, network.lanes.len(), index, &conflicts[index]);
+            Way {
+                has_strips,
+                is_alone: !has_strips && !is_met,
+                meeting,
+                ..way(&network, index, ends, (length[track], speed[track]))
+            }
         };
         let ways: Vec<Way> = connections.clone().map(way).collect();
         Self {
@@ -187,7 +200,6 @@ impl Tracks {
             signals: ways.iter().map(|way| way.signal).collect(),
             sure: ways.iter().map(|way| is_sure(length[way.to as usize])).collect(),
             ways,
-            meetings: Meetings::new(&layout, network.lanes.len(), &conflicts),
             conflicts,
             siblings: connections.map(|index| siblings(&network, index)).collect(),
             tight,
@@ -200,6 +212,7 @@ impl Tracks {
             opposite: lanes::opposite(&network),
             kinds: network.lanes.iter().map(|lane| lane.kind).collect(),
             leads_on: onward::lead_on(&network),
+            ring: network.lanes.iter().map(|lane| network.roads[lane.road.index()].roundabout).collect(),
             outermost: lanes::outermost(&network),
             exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
             router: Router::new(&network),
@@ -234,15 +247,13 @@ impl Tracks {
 
     /// Whether a lane is in a roundabout.
     pub(super) fn is_in_ring(&self, lane: Track) -> bool {
-        let road = self.network.lanes[lane as usize].road;
-        self.network.roads[road.index()].roundabout
+        self.ring[lane as usize]
     }
 
     /// Whether nobody meets a way or crosses it, as on a bend: there one drives up to whoever is behind it.
     #[inline]
     pub(super) fn is_alone(&self, way: usize) -> bool {
-        [self.tight[way].len(), self.narrow[way].len(), self.strips[way].len()] == [0; 3]
-            && self.conflicts[way].is_empty()
+        self.ways[way].is_alone
     }
 
     /// Where a way meets those that somebody holds: `held` says which of its part these are.
@@ -253,7 +264,7 @@ impl Tracks {
         held: &Held,
         is_held: impl Fn(u32) -> bool,
     ) -> impl Iterator<Item = &Conflict> {
-        self.meetings.held(way, &self.conflicts[way], held, is_held)
+        self.ways[way].meeting.held(&self.conflicts[way], held, is_held)
     }
 
     /// Distance between the middles of two lanes side by side, m.
@@ -350,7 +361,6 @@ fn way(
     index: usize,
     (local, there): (usize, Place),
     (length, speed): (f64, f64),
-    has_strips: bool,
 ) -> Way {
     let connection = &network.connections[index];
     Way {
@@ -360,11 +370,13 @@ fn way(
         crosses_oncoming: connection.turn == network.driving_side.turn_across(),
         stops: network.stops_at(connection.from),
         turns_by_gaps: connection.turn != Turn::Straight && !connection.yields_to.is_empty(),
-        has_strips,
+        has_strips: false,
+        is_alone: true,
         local: local as u32,
         there,
         length,
         speed,
+        meeting: Meeting::default(),
     }
 }
 

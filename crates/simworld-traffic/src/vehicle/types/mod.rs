@@ -5,7 +5,6 @@ mod table;
 
 pub use kind::VehicleKind;
 use serde::{Deserialize, Serialize};
-use simworld_core::ops::lesser;
 use simworld_core::scene::Shape;
 use simworld_core::seed::StreamRng;
 pub use table::standard_types;
@@ -61,7 +60,7 @@ impl VehicleType {
     /// The speed on a road of that limit of a driver with that factor, m/s.
     #[inline]
     pub(crate) fn free_speed(&self, config: &TrafficConfig, factor: f32, limit: f64) -> f64 {
-        lesser(f64::from(factor) * config.conditions.speed * limit, self.driver.desired_speed)
+        self.driver.free_speed(config, factor, limit)
     }
 
     /// Whether there is more to it than the IDM of a perfect driver.
