@@ -14,6 +14,25 @@ impl Workers for AllThreads {
     }
 }
 
+/// So many things, and what is made of them, stay in the caches.
+const FEW: usize = 2048;
+
+/// How many of some things one thread works on at once: as many as is usual, or all of them where there is one thread and they are
+/// few. What is made of them stands in one piece then, and is taken over without being moved.
+pub(crate) fn at_once(count: usize, usual: usize) -> usize {
+    if count <= FEW && rayon::current_num_threads() == 1 { count.max(1) } else { usual }
+}
+
+/// Adds a part to what is to be so many things, more or less. The first part stays where it is.
+pub(crate) fn take_over<T>(all: &mut Vec<T>, mut part: Vec<T>, count: usize) {
+    if all.is_empty() {
+        *all = part;
+        all.reserve_exact(count.saturating_sub(all.len()));
+    } else {
+        all.append(&mut part);
+    }
+}
+
 /// Makes something of each batch on all threads, and takes what was made in the order of the batches, while the next is
 /// being made: `take` is called as if there were one thread. It is called with nothing first, while the first batch is being
 /// made.

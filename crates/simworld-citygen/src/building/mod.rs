@@ -236,12 +236,13 @@ pub(crate) fn raise(
 ) -> Vec<Building> {
     let streams = seed.stream("citygen/buildings");
     let weights = Weights::new();
-    let mut buildings = Vec::with_capacity(land.lots.len() * 4 / 3);
-    taken.reserve(land.lots.len() * 4 / 3);
+    let (mut buildings, wanted) = (Vec::new(), land.lots.len() * 4 / 3);
+    taken.reserve(wanted);
+    let chunk = threads::at_once(land.lots.len(), CHUNK);
     // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
     let plan = |batch: &[Lot]| -> Vec<Plans> {
         let planned = batch
-            .par_chunks(CHUNK)
+            .par_chunks(chunk)
             .map(|lots| Planner::new(network, land, config, &weights, streams).plan_all(lots));
         planned.collect()
     };
@@ -250,7 +251,7 @@ pub(crate) fn raise(
             let mut grounds = grounds.iter();
             // Lots do not overlap, so this refuses only what would stand on a road: nearly all go over as they stand.
             planned.retain(|_| grounds.next().is_some_and(|ground| taken.take(ground)));
-            buildings.append(&mut planned);
+            threads::take_over(&mut buildings, planned, wanted);
         }
     });
     buildings

@@ -119,7 +119,7 @@ pub fn furnish(
     taken: &mut Occupancy,
 ) -> Vec<Element> {
     let streams = seed.stream("citygen/elements");
-    let mut elements = Vec::with_capacity(setting.network.sidewalks.len() * 14);
+    let mut elements = Vec::new();
     // Cars park where nothing else may stand, so nobody has to wait for them.
     let ((), parked) = rayon::join(
         || sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements),

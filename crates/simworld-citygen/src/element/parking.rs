@@ -24,6 +24,8 @@ const EDGE_GAP: f64 = 0.1;
 /// The narrowest lane in which cars park along the kerb, m.
 const NARROWEST: f64 = 1.8;
 
+/// So many cars park in a street on the average, or fewer.
+const CARS: usize = 6;
 /// Streets in which one thread parks at once.
 const CHUNK: usize = 256;
 
@@ -39,9 +41,10 @@ pub(super) fn park(setting: &Setting<'_>, config: &ElementConfig, streams: Strea
         sections.map(|section| section.strips().filter(is_for_cars).collect()).collect();
     let streets = setting.streets().min(setting.plan.streets.len());
     let parts = (0..streets.div_ceil(CHUNK)).into_par_iter().map(|part| {
-        let mut cars = Vec::new();
+        let own = part * CHUNK..streets.min((part + 1) * CHUNK);
+        let mut cars = Vec::with_capacity(CARS * own.len());
         let mut stretch = Vec::new();
-        for index in part * CHUNK..streets.min((part + 1) * CHUNK) {
+        for index in own {
             let street = &setting.plan.streets[index];
             let Some(bays) = bays.get(street.section as usize).filter(|bays| !bays.is_empty()) else {
                 continue;

@@ -32,6 +32,8 @@ const NEIGHBOUR_GAP: f64 = 0.3;
 /// Mean distance of bus stops along one side of an arterial, m.
 const BUS_STOPS: f64 = 350.0;
 
+/// So many elements are mostly wished for along a sidewalk, and set there, in its street and behind it.
+const WISHES: usize = 14;
 /// Sidewalks that one thread furnishes at once.
 const CHUNK: usize = 64;
 /// Sidewalks that are furnished at once: what they wish for stays in the caches until it is decided on.
@@ -40,8 +42,9 @@ const BATCH: usize = 64 * CHUNK;
 /// What would like to stand along some sidewalks.
 #[derive(Default)]
 struct Wishes {
-    elements: Vec<(Element, Need)>,
-    /// The ground of each that needs some, in the same order.
+    elements: Vec<Element>,
+    /// What each of them needs, and the ground of each that needs some, in the same order.
+    needs: Vec<Need>,
     grounds: Vec<[Point2; 4]>,
 }
 
@@ -50,7 +53,8 @@ impl Wishes {
         if needs != Need::Nothing {
             self.grounds.push(element.obb().footprint());
         }
-        self.elements.push((element, needs));
+        self.elements.push(element);
+        self.needs.push(needs);
     }
 }
 
@@ -78,11 +82,13 @@ pub(super) fn line(
     let sidewalks: Vec<(usize, &Sidewalk)> =
         all.filter(|(_, sidewalk)| setting.has_side(sidewalk.road, sidewalk.side)).collect();
     // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
+    let chunk = threads::at_once(sidewalks.len(), CHUNK);
     let wish = |batch: &[(usize, &Sidewalk)]| -> Vec<Wishes> {
         let zoning = || RememberedZoning::new(setting.zoning);
-        let made = batch.par_chunks(CHUNK).map_init(zoning, |zoning, sidewalks| {
+        let made = batch.par_chunks(chunk).map_init(zoning, |zoning, sidewalks| {
             let mut setter = Setter::default();
-            setter.wishes.elements.reserve(14 * sidewalks.len());
+            setter.wishes.elements.reserve(WISHES * sidewalks.len());
+            setter.wishes.needs.reserve(WISHES * sidewalks.len());
             for (index, sidewalk) in sidewalks {
                 setter.begin(sidewalk, doors.at(*index), setting);
                 let zone = setter.zone(zoning);
@@ -94,27 +100,28 @@ pub(super) fn line(
     };
     threads::in_order(sidewalks.chunks(BATCH), wish, |made| {
         for wishes in made.into_iter().flatten() {
-            grant(wishes, taken, elements);
+            threads::take_over(elements, granted(wishes, taken), WISHES * sidewalks.len());
         }
     });
 }
 
-/// Sets those of the elements wished for that need nothing or find room.
-fn grant(wishes: Wishes, taken: &mut Occupancy, elements: &mut Vec<Element>) {
+/// Those of the elements wished for that need nothing or find room.
+fn granted(wishes: Wishes, taken: &mut Occupancy) -> Vec<Element> {
+    let Wishes { mut elements, needs, grounds } = wishes;
     let mut has_table = false;
-    let mut grounds = wishes.grounds.iter();
-    for (element, needs) in wishes.elements {
+    let (mut needs, mut grounds) = (needs.into_iter(), grounds.iter());
+    elements.retain(|element| {
+        let needs = needs.next().unwrap_or(Need::Nothing);
         // Each that needs ground takes its own from the list, whether it is looked at or not.
         let ground = if needs == Need::Nothing { None } else { grounds.next() };
         let is_out = needs == Need::Table && !has_table;
         let comes_true = !is_out && ground.is_none_or(|ground| taken.take(ground));
-        if comes_true {
-            elements.push(element);
-        }
         if needs == Need::Room {
             has_table = comes_true && element.kind == EntityKind::Table;
         }
-    }
+        comes_true
+    });
+    elements
 }
 
 /// The stream of a sidewalk is a function of where it begins, so that a change elsewhere moves nothing here.

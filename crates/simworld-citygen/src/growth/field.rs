@@ -33,7 +33,8 @@ impl Field {
     /// The layout of land without end: its grain turns about east, and nothing is remote.
     pub(super) fn endless(config: &RoadConfig, seed: Seed) -> Self {
         let radius = f64::INFINITY;
-        let near = 5.0 * config.length;
+        // What lies beside each other is asked for one after the other.
+        let near = 10.0 * config.length;
         let stream = seed.stream("citygen/field");
         Self {
             orientation: remembered(stream.named("orientation"), config.patch, near),

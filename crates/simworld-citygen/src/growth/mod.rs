@@ -32,7 +32,7 @@ use field::{Field, Site};
 use fitted::Start;
 use proposal::{Fitter, Measures, Proposal};
 use queue::{End, Queue};
-pub(crate) use within::{Gate, Within, grow_within};
+pub(crate) use within::{Gate, Soil, Within, grow_within};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.
 const REVIVALS: u32 = 40;
@@ -51,7 +51,11 @@ const DIVISION_DELAY: f64 = 3.0;
 ///
 /// It always ends: when the queue runs dry it is revived from existing junctions, a bounded number of times.
 pub fn grow(config: &RoadConfig, seed: Seed) -> StreetPlan {
-    let mut growth = Growth::new(config, seed);
+    // A street needs about half the square of its length; growth leaves gaps, and wants room to choose.
+    let needed = f64::from(config.count) * config.length * config.length;
+    let radius = (needed / PI).sqrt() * 1.5 + 6.0 * config.length;
+    let mut field = Field::new(config, radius, seed);
+    let mut growth = Growth::new(config, &mut field, seed);
     growth.plant();
     for _ in 0..ROUNDS {
         growth.run();
@@ -76,7 +80,7 @@ fn attempts(config: &RoadConfig) -> u32 {
 struct Growth<'a> {
     config: &'a RoadConfig,
     measures: Measures,
-    field: Field,
+    field: &'a mut Field,
     fabric: Fabric,
     fitter: Fitter,
     queue: Queue,
@@ -88,20 +92,18 @@ struct Growth<'a> {
 }
 
 impl<'a> Growth<'a> {
-    fn new(config: &'a RoadConfig, seed: Seed) -> Self {
-        // A street needs about half the square of its length; growth leaves gaps, and wants room to choose.
-        let needed = f64::from(config.count) * config.length * config.length;
-        let radius = (needed / PI).sqrt() * 1.5 + 6.0 * config.length;
+    fn new(config: &'a RoadConfig, field: &'a mut Field, seed: Seed) -> Self {
+        let (count, reach) = (config.count as usize, field.radius());
         Self {
             config,
             measures: Measures::new(config),
-            field: Field::new(config, radius, seed),
-            fabric: Fabric::around(Point2::origin(), radius, config.length, config.count as usize),
+            field,
+            fabric: Fabric::around(Point2::origin(), reach, config.length, count),
             fitter: Fitter::default(),
             queue: Queue::new(1.0),
             revivals: attempts(config),
             standing: 0,
-            wanted: config.count as usize,
+            wanted: count,
             rng: seed.stream("citygen/roads").rng(),
         }
     }

@@ -41,9 +41,27 @@ pub(crate) struct Within {
     pub(crate) streets: Vec<Street>,
 }
 
-/// Grows streets within a wall, counter-clockwise. `fields` seeds what the land is like, `own` all choices.
-pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, fields: Seed, own: Seed) -> Within {
-    let mut growth = Growth::within(wall, config, fields, own);
+/// What is the same for the streets within all walls.
+#[derive(Clone, Debug)]
+pub(crate) struct Soil {
+    field: Field,
+    curves: Curves,
+    /// How far a local street reaches to its left, m.
+    reach: f64,
+}
+
+impl Soil {
+    /// That of a configuration and of a seed, by which the land is what it is.
+    pub(crate) fn new(config: &RoadConfig, fields: Seed) -> Self {
+        let reach = plan_of_sections(config).0.sections[0].left_of_reference();
+        Self { field: Field::endless(config, fields), curves: Curves::new(), reach }
+    }
+}
+
+/// Grows streets within a wall, counter-clockwise; `own` seeds all choices.
+pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, soil: &mut Soil, own: Seed) -> Within {
+    let Soil { field, curves, reach } = soil;
+    let mut growth = Growth::within(wall, config, field, own);
     growth.open_gates(wall);
     growth.run();
     if growth.standing < wall.len() / 4 {
@@ -58,11 +76,11 @@ pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, fields: Seed, own:
             break;
         }
     }
-    growth.inside(own)
+    growth.inside(curves, *reach, own)
 }
 
 impl<'a> Growth<'a> {
-    fn within(wall: &[Gate], config: &'a RoadConfig, fields: Seed, own: Seed) -> Self {
+    fn within(wall: &[Gate], config: &'a RoadConfig, field: &'a mut Field, own: Seed) -> Self {
         let (low, high) = bounds(wall.iter().map(|gate| &gate.at)).unwrap_or_default();
         let reach = (high - low).norm() * 0.5 + 2.0 * config.length;
         let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 4 * wall.len());
@@ -72,7 +90,7 @@ impl<'a> Growth<'a> {
         Self {
             config,
             measures: Measures::new(config),
-            field: Field::endless(config, fields),
+            field,
             fabric,
             fitter: Fitter::default(),
             // What is near is all there is: costs are told apart finely.
@@ -101,9 +119,8 @@ impl<'a> Growth<'a> {
     }
 
     /// The streets that stand within the wall, some of them bent.
-    fn inside(&self, own: Seed) -> Within {
-        let (bends, curves) = (own.stream("citygen/bends"), Curves::new());
-        let reach = plan_of_sections(self.config).0.sections[0].left_of_reference();
+    fn inside(&self, curves: &Curves, reach: f64, own: Seed) -> Within {
+        let bends = own.stream("citygen/bends");
         let walls = self.fabric.walls();
         // With room for the streets of the wall, which stand beside them while dead ends are given room to turn.
         let mut within = Within {
@@ -129,7 +146,7 @@ impl<'a> Growth<'a> {
             });
             let mut rng = bends.indexed(index as u64).rng();
             let via = if rng.chance(self.config.bends) {
-                self.course(&curves, (segment.class, segment.a, segment.b), reach, &mut rng)
+                self.course(curves, (segment.class, segment.a, segment.b), reach, &mut rng)
             } else {
                 Vec::new()
             };

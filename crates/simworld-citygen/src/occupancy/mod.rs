@@ -204,10 +204,16 @@ fn separates(axis: &Vector2, a: &[Point2], b: &[Point2]) -> bool {
 
 #[inline]
 fn span(points: &[Point2], axis: &Vector2) -> (f64, f64) {
-    points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
-        let at = point.x * axis.x + point.y * axis.y;
-        (if at < low { at } else { low }, if at > high { at } else { high })
-    })
+    let at = |point: &Point2| point.x * axis.x + point.y * axis.y;
+    if let [a, b, c, d] = points {
+        // In pairs: no comparison waits for all those before.
+        let [a, b, c, d] = [a, b, c, d].map(at);
+        return (least(least(a, b), least(c, d)), most(most(a, b), most(c, d)));
+    }
+    points
+        .iter()
+        .map(at)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (least(low, at), most(high, at)))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use simworld_core::net::{RoadClass, Street, StreetPlan};
 use super::lattice::{Axis, Junction};
 use super::{Superblock, TileId, TileSource};
 use crate::RoadConfig;
-use crate::growth::{self, Within};
+use crate::growth::{self, Soil, Within};
 
 /// Streets of a superblock with its main streets and a share of the margin: most have fewer.
 const STREETS: usize = 96;
@@ -50,13 +50,17 @@ pub(super) struct Drawer {
     sections: [u32; 3],
     /// Nodes on main streets, by the bits of their coordinates: both sides of a seam compute the same ones.
     known: BTreeMap<[u64; 2], usize>,
+    /// What all superblocks grow in.
+    soil: Soil,
     sides: Vec<[bool; 2]>,
 }
 
 impl Drawer {
     pub(super) fn new(source: &TileSource) -> Self {
-        let (plan, sections) = growth::plan_of_sections(&source.config().city.roads);
-        Self { plan, sections, known: BTreeMap::new(), sides: Vec::new() }
+        let roads = &source.config().city.roads;
+        let (plan, sections) = growth::plan_of_sections(roads);
+        let soil = Soil::new(roads, source.seed());
+        Self { plan, sections, known: BTreeMap::new(), soil, sides: Vec::new() }
     }
 
     /// The node on a main street at a point; new if there is none yet.
@@ -156,7 +160,7 @@ impl Drawer {
         }
         for row in south..north {
             for column in west..east {
-                let mut superblock = source.superblock(column, row);
+                let mut superblock = source.superblock(column, row, &mut self.soil);
                 superblock.make_turning_room(roads);
                 self.within(superblock);
             }
@@ -184,7 +188,8 @@ impl Drawer {
         let beside: Vec<(i64, i64)> =
             beside.chain((south..north).flat_map(|row| [(west - 1, row), (east, row)])).collect();
         for (column, row) in beside {
-            self.margin_within(source.superblock(column, row), &source.config().city.roads);
+            let superblock = source.superblock(column, row, &mut self.soil);
+            self.margin_within(superblock, &source.config().city.roads);
         }
         for column in west..=east {
             self.margin_main(&lattice.street(column, south - 1, Axis::North), true);

@@ -24,7 +24,7 @@ pub use config::{LatticeConfig, TileConfig};
 pub use stream::{CityStream, StreamConfig, TileChanges, WorldStream};
 pub use window::Window;
 
-use crate::growth::{self, Within};
+use crate::growth::{self, Soil, Within};
 use crate::{CityError, RoadConfig};
 use draft::{Beyond, Drawer};
 use lattice::Lattice;
@@ -155,10 +155,10 @@ impl TileSource {
     }
 
     /// The streets within a superblock.
-    fn superblock(&self, column: i64, row: i64) -> Superblock {
+    fn superblock(&self, column: i64, row: i64, soil: &mut Soil) -> Superblock {
         let wall = self.lattice.wall(column, row);
         let own = self.superblocks.indexed(column as u64).indexed(row as u64).seed();
-        let within = growth::grow_within(&wall, &self.config.city.roads, self.seed, own);
+        let within = growth::grow_within(&wall, &self.config.city.roads, soil, own);
         Superblock { within, walls: wall.len() }
     }
 }
