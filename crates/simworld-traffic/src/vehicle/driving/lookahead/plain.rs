@@ -36,13 +36,16 @@ impl Lane<'_> {
 
     /// The acceleration on a plain lane of one who has nothing to mind but who is ahead of him there, m/s²; `None` for others.
     #[inline]
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "asked one by one, each of the answers would be hard to foretell"
+    )]
     pub(super) fn follow_on(&self, vehicle: &Vehicle, leader: Option<&Vehicle>) -> Option<f64> {
         let driver = &self.scene.drivers[usize::from(vehicle.row)];
         let v = vehicle.v;
         // Whose front has left the lane and whose rear has not is looked for by the first alone.
         let beyond = if leader.is_none() { LONGEST } else { 0.0 };
         let leader = leader.unwrap_or(&NOBODY);
-        // All at once: asked one by one, each of the answers would be hard to foretell.
         let is_plain = driver.is_perfect
             & (self.end - vehicle.s > horizon(v) + beyond)
             & (vehicle.next != NONE)
