@@ -197,10 +197,9 @@ fn has_separating_side(a: &[Point2; 4], b: &(impl AsRef<[Point2]> + ?Sized)) -> 
 
 /// Whether two outlines lie apart along an axis.
 #[inline]
-#[expect(clippy::needless_bitwise_bool, reason = "which of the two it is cannot be foretold")]
 fn separates(axis: &Vector2, a: &[Point2], b: &[Point2]) -> bool {
     let ((a_low, a_high), (b_low, b_high)) = (span(a, axis), span(b, axis));
-    (a_low >= b_high) | (b_low >= a_high)
+    a_low >= b_high || b_low >= a_high
 }
 
 #[inline]
