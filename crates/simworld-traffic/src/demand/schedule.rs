@@ -106,7 +106,10 @@ impl Schedule {
     pub fn add(&mut self, departing: Departing) {
         self.due.add(departing.depart, self.departing.len());
         let once = Departures { first: departing.depart, headway: 1.0, until: f64::INFINITY, number: 1 };
-        self.serve(&departing.line, &departing.route, &departing.stops, once);
+        if let Some(service) = service(&departing.line, &departing.route, &departing.stops, once) {
+            self.services.push(service);
+            self.timetable = None;
+        }
         self.departing.push(Some(departing));
     }
 
@@ -146,16 +149,11 @@ impl Schedule {
     pub fn name_line(&mut self, line: impl Into<String>) {
         let Some(last) = self.series.last_mut() else { return };
         last.line = line.into();
-        let Series { line, flow: Flow { route, stops, per_hour, from, until, .. }, beat, .. } = last.clone();
-        let headway = 3600.0 / per_hour;
-        self.serve(&line, &route, &stops, Departures { first: from, headway, until, number: beat.number });
-    }
-
-    /// Takes note of a line, for those who look for a way by it.
-    fn serve(&mut self, line: &str, route: &Route, stops: &[Stop], departures: Departures) {
-        if !line.is_empty() && stops.len() > 1 {
-            let (line, route, stops) = (line.to_owned(), route.clone(), stops.to_vec());
-            self.services.push(Service { line, route, stops, departures });
+        let Flow { route, stops, per_hour, from, until, .. } = &last.flow;
+        let (first, headway, until, number) = (*from, 3600.0 / per_hour, *until, last.beat.number);
+        if let Some(service) = service(&last.line, route, stops, Departures { first, headway, until, number })
+        {
+            self.services.push(service);
             self.timetable = None;
         }
     }
@@ -260,4 +258,14 @@ impl Schedule {
             }
         }
     }
+}
+
+/// What those are offered who look for a way by a line, if it is one on which somebody could ride.
+fn service(line: &str, route: &Route, stops: &[Stop], departures: Departures) -> Option<Service> {
+    (!line.is_empty() && stops.len() > 1).then(|| Service {
+        line: line.to_owned(),
+        route: route.clone(),
+        stops: stops.to_vec(),
+        departures,
+    })
 }

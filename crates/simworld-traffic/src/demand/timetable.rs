@@ -95,9 +95,13 @@ pub(super) struct Timetable {
 impl Timetable {
     /// Free travel times between halts; a service whose way does not lead on is left out.
     pub(super) fn new(network: &RoadNetwork, services: &[Service]) -> Self {
+        let mut table = Self { places: Vec::new(), services: Vec::new() };
+        if services.is_empty() {
+            // A router looks at the whole network.
+            return table;
+        }
         let router = Router::new(network);
         let mut numbers: BTreeMap<(Leg, u64), usize> = BTreeMap::new();
-        let mut table = Self { places: Vec::new(), services: Vec::new() };
         for service in services {
             let Some(times) = times(network, &router, service) else { continue };
             let halts = service.stops.iter().zip(times).map(|(stop, (arrives, leaves))| {
