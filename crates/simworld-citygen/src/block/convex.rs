@@ -70,6 +70,7 @@ struct Hit {
 }
 
 /// The first edge that a ray from a corner meets.
+#[expect(clippy::needless_bitwise_bool, reason = "which of the three it is cannot be foretold")]
 fn first_hit(ring: &Ring, corner: usize, direction: Vector2) -> Option<Hit> {
     let origin = ring.corners[corner];
     let mut best: Option<Hit> = None;

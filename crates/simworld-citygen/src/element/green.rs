@@ -107,6 +107,7 @@ fn edges(outline: &[Point2]) -> SmallVec<[Edge; 8]> {
 }
 
 /// Whether a point lies within an outline, clear of its edges.
+#[expect(clippy::needless_bitwise_bool, reason = "which edges pass the height of a point cannot be foretold")]
 fn is_inside(edges: &[Edge], point: Point2) -> bool {
     let mut inside = false;
     for ([a, b], edge, squared) in edges {

@@ -67,7 +67,7 @@ impl Shape {
             bend: OnceCell::new(),
             sag: longest * 0.25,
         };
-        shape.first = shape.from_origin(&start);
+        shape.first = shape.turned(&start);
         shape.beside = shape.seen(path);
         if shape.length > SHORTEST {
             shape.hull = shape.hull_of(&shape.beside);
@@ -86,21 +86,21 @@ impl Shape {
     }
 
     /// Where a point lies along and across the chord, seen from the origin.
-    fn from_origin(&self, point: &Point2) -> [f64; 2] {
+    fn turned(&self, point: &Point2) -> [f64; 2] {
         let (chord, left) = (&self.chord, &self.left);
         [point.x * chord.x + point.y * chord.y, point.x * left.x + point.y * left.y]
     }
 
     /// The same from the beginning. Ten thousand kilometres from the origin some 10 nm of it are rounded.
     fn locate(&self, point: &Point2) -> [f64; 2] {
-        let [along, across] = self.from_origin(point);
+        let [along, across] = self.turned(point);
         [along - self.first[0], across - self.first[1]]
     }
 
     fn seen(&self, path: &[Point2]) -> Extent {
         let mut extent = Extent::NONE;
         for point in path {
-            extent.add(self.from_origin(point));
+            extent.add(self.turned(point));
         }
         // What is least stays least: this is subtracted once for all.
         extent.moved(self.first.map(|first| -first))
