@@ -14,6 +14,7 @@ pub mod files;
 mod geo;
 pub mod graph;
 pub mod growth;
+mod key;
 pub mod landscape;
 pub mod lot;
 pub mod map;

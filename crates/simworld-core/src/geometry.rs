@@ -27,6 +27,7 @@ pub type Vector3 = nalgebra::Vector3<f64>;
 pub type Pose = Isometry3<f64>;
 
 /// The pose at `position` that faces `yaw` radians counter-clockwise from east, upright.
+#[inline]
 pub fn pose_facing(position: Point3, yaw: f64) -> Pose {
     Pose::from_parts(position.into(), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw))
 }
@@ -43,12 +44,14 @@ pub fn planar(pose: &Pose) -> Point2 {
 }
 
 /// The unit vector that points `yaw` radians counter-clockwise from east.
+#[inline]
 pub fn direction(yaw: f64) -> Vector2 {
     let (sin, cos) = ops::sin_cos(yaw);
     Vector2::new(cos, sin)
 }
 
 /// The heading of a displacement, radians in (-π, π].
+#[inline]
 pub fn heading(displacement: &Vector2) -> f64 {
     ops::atan2(displacement.y, displacement.x)
 }
@@ -172,6 +175,7 @@ impl Obb {
     }
 
     /// The four corners of the footprint seen from above, counter-clockwise; exact for upright boxes.
+    #[inline]
     pub fn footprint(&self) -> [Point2; 4] {
         let (hx, hy) = (self.half_extents.x, self.half_extents.y);
         [(hx, hy), (-hx, hy), (-hx, -hy), (hx, -hy)].map(|(x, y)| {

@@ -38,6 +38,7 @@ pub struct Stream(u64);
 impl Stream {
     /// The child stream of an index: an entity, a tile, a tick.
     #[must_use]
+    #[inline]
     pub fn indexed(self, index: u64) -> Self {
         Self(xxh3_64_with_seed(&index.to_le_bytes(), self.0))
     }

@@ -70,6 +70,7 @@ struct Hit {
 }
 
 /// The first edge that a ray from a corner meets.
+#[expect(clippy::needless_bitwise_bool, reason = "which of the three it is cannot be foretold")]
 fn first_hit(ring: &Ring, corner: usize, direction: Vector2) -> Option<Hit> {
     let origin = ring.corners[corner];
     let mut best: Option<Hit> = None;
@@ -83,7 +84,12 @@ fn first_hit(ring: &Ring, corner: usize, direction: Vector2) -> Option<Hit> {
             continue;
         }
         let to_start = start - origin;
-        let (distance, share) = (to_start.perp(&along) / det, to_start.perp(&direction) / det);
+        let (distance, share) = (to_start.perp(&along), to_start.perp(&direction));
+        // Most edges lie behind, or plainly beside the ray: that is seen without a division.
+        if (distance * det < 0.0) | (share * det < 0.0) | (share.abs() > det.abs() * (1.0 + 1e-9)) {
+            continue;
+        }
+        let (distance, share) = (distance / det, share / det);
         let is_hit = distance > 1e-6 && (0.0..=1.0).contains(&share);
         if is_hit && best.as_ref().is_none_or(|best| distance < best.distance) {
             best = Some(Hit { edge, point: start + along * share, distance });

@@ -5,6 +5,7 @@ use simworld_core::geometry::{Point2, Vector2};
 
 use super::trace::{Boundary, Piece};
 use super::{Border, Ring};
+use crate::occupancy::most;
 
 /// How far a front may leave the sidewalk, m.
 const TOLERANCE: f64 = 2.4;
@@ -12,6 +13,8 @@ const TOLERANCE: f64 = 2.4;
 const STRAIGHT: f64 = 0.02;
 /// A piece shorter than this has no direction, m.
 const SHORTEST: f64 = 1e-3;
+/// What differs by more than this share differs, whatever was rounded.
+const PLAIN: f64 = 1e-9;
 /// A mitred corner farther than this many offsets from the corner it belongs to is cut off.
 const LONGEST_MITRE: f64 = 4.0;
 
@@ -27,18 +30,24 @@ pub(super) fn inset(boundary: &Boundary) -> Option<Ring> {
 struct Line {
     start: Point2,
     end: Point2,
+    /// Its length, m: asked for again and again, and a root takes long.
+    length: f64,
     border: Border,
 }
 
 impl Line {
+    fn new(start: Point2, end: Point2, border: Border) -> Self {
+        Self { start, end, length: (end - start).norm(), border }
+    }
+
     fn along(&self) -> Vector2 {
         self.end - self.start
     }
 
     fn moved(&self, distance: f64) -> Self {
         let along = self.along();
-        let shift = Vector2::new(-along.y, along.x) * (distance / along.norm());
-        Self { start: self.start + shift, end: self.end + shift, border: self.border }
+        let shift = Vector2::new(-along.y, along.x) * (distance / self.length);
+        Self::new(self.start + shift, self.end + shift, self.border)
     }
 }
 
@@ -50,9 +59,9 @@ fn offset(boundary: &Boundary) -> Option<Ring> {
     let mut offsets = Vec::with_capacity(count);
     for index in 0..count {
         let Piece { border, offset } = boundary.pieces[index];
-        let (start, end) = (boundary.points[index], boundary.points[after(index, count)]);
-        if (end - start).norm() > SHORTEST {
-            lines.push(Line { start, end, border }.moved(offset));
+        let line = Line::new(boundary.points[index], boundary.points[after(index, count)], border);
+        if line.length > SHORTEST {
+            lines.push(line.moved(offset));
             offsets.push(offset);
         }
     }
@@ -86,7 +95,7 @@ fn label_corners(lines: &mut [Line]) {
     let count = lines.len();
     let goes_on = |a: &Line, b: &Line| {
         let (u, v) = (a.along(), b.along());
-        u.dot(&v) > 0.0 && u.perp(&v).abs() < 2.0 * STRAIGHT * u.norm() * v.norm()
+        u.dot(&v) > 0.0 && u.perp(&v).abs() < 2.0 * STRAIGHT * a.length * b.length
     };
     for index in 0..count {
         let (before, here) = (lines[before(index, count)], lines[index]);
@@ -133,21 +142,19 @@ impl Reach {
 fn join(lines: &[Line], reach: impl Fn(usize) -> Reach) -> Joined {
     let count = lines.len();
     let mut ring = Ring::with_capacity(count);
-    let mut ends = vec![(Point2::origin(), Point2::origin()); count];
-    for index in 0..count {
-        let next = after(index, count);
-        let (out, into) = corner(&lines[index], &lines[next], reach(index));
-        ends[index].1 = out;
-        ends[next].0 = into;
-    }
     let mut kept = Vec::with_capacity(count);
-    for (index, (start, end)) in ends.iter().enumerate() {
-        let along = lines[index].along();
-        kept.push((end - start).dot(&along) > SHORTEST * along.norm());
-        ring.push(*start, lines[index].border);
-        if (ends[after(index, count)].0 - end).norm() > SHORTEST {
-            ring.push(*end, Border::CORNER);
+    let turn = |index: usize| corner(&lines[index], &lines[after(index, count)], reach(index));
+    // The first line is entered where the last one is left.
+    let last = turn(count - 1);
+    let mut start = last.1;
+    for (index, line) in lines.iter().enumerate() {
+        let (end, next) = if index + 1 == count { last } else { turn(index) };
+        kept.push((end - start).dot(&line.along()) > SHORTEST * line.length);
+        ring.push(start, line.border);
+        if is_longer(&(next - end), SHORTEST) {
+            ring.push(end, Border::CORNER);
         }
+        start = next;
     }
     Joined { ring, kept }
 }
@@ -155,11 +162,11 @@ fn join(lines: &[Line], reach: impl Fn(usize) -> Reach) -> Joined {
 /// Where one line is left and the next entered.
 fn corner(line: &Line, next: &Line, reach: Reach) -> (Point2, Point2) {
     let (u, v) = (line.along(), next.along());
-    let sine = u.perp(&v) / (u.norm() * v.norm());
+    let sine = u.perp(&v) / (line.length * next.length);
     if sine.abs() > STRAIGHT {
         let met = line.start + u * ((next.start - line.start).perp(&v) / u.perp(&v));
-        let beyond = (met - line.end).dot(&u) / u.norm();
-        let before = (next.start - met).dot(&v) / v.norm();
+        let beyond = (met - line.end).dot(&u) / line.length;
+        let before = (next.start - met).dot(&v) / next.length;
         if reach.holds(beyond) && reach.holds(before) {
             return (met, met);
         }
@@ -184,8 +191,8 @@ fn straighten(ring: &Ring) -> Ring {
         .iter()
         .map(|(first, length)| {
             let at = |step: usize| ring.corners[onwards(*first, step, count)];
-            let line = Line { start: at(0), end: at(*length), border: ring.borders[*first] };
-            let along = line.along() / line.along().norm();
+            let line = Line::new(at(0), at(*length), ring.borders[*first]);
+            let along = line.along() / line.length;
             let deepest = (1..*length).map(|step| along.perp(&(at(step) - line.start))).fold(0.0, f64::max);
             if deepest > 1e-6 { line.moved(deepest) } else { line }
         })
@@ -219,7 +226,21 @@ fn runs(ring: &Ring) -> Vec<(usize, usize)> {
 /// Whether the street turns sharply after an edge: by more than 17°.
 fn turns(ring: &Ring, index: usize) -> bool {
     let (u, v) = (ring.edge(index), ring.edge(after(index, ring.len())));
-    u.perp(&v).abs() > 0.3 * u.norm() * v.norm() || u.dot(&v) <= 0.0
+    u.dot(&v) <= 0.0 || {
+        // By the squares: roots are taken only where it is a close call.
+        let (sine, bound) = (u.perp(&v), 0.09 * u.norm_squared() * v.norm_squared());
+        is_greater(sine * sine, bound).unwrap_or_else(|| sine.abs() > 0.3 * u.norm() * v.norm())
+    }
+}
+
+/// Whether something is longer than a bound, m; by their squares, but for a close call.
+pub(super) fn is_longer(way: &Vector2, bound: f64) -> bool {
+    is_greater(way.norm_squared(), bound * bound).unwrap_or_else(|| way.norm() > bound)
+}
+
+/// Whether one number is greater than another, where that is plain whatever was rounded.
+fn is_greater(a: f64, b: f64) -> Option<bool> {
+    ((a - b).abs() > PLAIN * b).then_some(a > b)
 }
 
 /// So many steps on round a ring, no more than once round: no division, which takes longer than all else that is asked.
@@ -237,10 +258,17 @@ const fn before(index: usize, count: usize) -> usize {
 }
 
 fn stays_straight(ring: &Ring, first: usize, length: usize) -> bool {
-    let at = |step: usize| ring.corners[onwards(first, step, ring.len())];
-    let along = at(length) - at(0);
-    let norm = along.norm();
-    norm > 1e-6 && (1..length).all(|step| (along.perp(&(at(step) - at(0))) / norm).abs() <= TOLERANCE)
+    let (corners, last) = (&ring.corners[..], first + length);
+    let (start, end) = (corners[first], corners[onwards(first, length, corners.len())]);
+    let along = end - start;
+    let aside =
+        |between: &[Point2]| between.iter().map(|corner| along.perp(&(corner - start)).abs()).fold(0.0, most);
+    // Those before the end of the list, and those that come round to its beginning.
+    let (before, behind) =
+        (&corners[first + 1..last.min(corners.len())], &corners[..last.saturating_sub(corners.len())]);
+    let (farthest, norm) = (most(aside(before), aside(behind)), along.norm());
+    // The greatest is the greatest still when it is divided.
+    norm > 1e-6 && farthest / norm <= TOLERANCE
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use simworld_core::geometry::{Point2, Vector2};
 use smallvec::SmallVec;
 
 use super::Border;
+use crate::occupancy::{least, most};
 
 /// What a polygon has for each corner. Nearly all have few, and are cut and thrown away by the thousand: those stand in place.
 type PerCorner<T> = SmallVec<[T; 8]>;
@@ -196,8 +197,8 @@ impl Split {
 
 /// Whether two segments share a point.
 fn touch(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
-    let (low, high) = (a.inf(&b), a.sup(&b));
-    if c.x.min(d.x) > high.x || c.x.max(d.x) < low.x || c.y.min(d.y) > high.y || c.y.max(d.y) < low.y {
+    let is_apart = |[a, b]: [f64; 2], [c, d]: [f64; 2]| least(c, d) > most(a, b) || most(c, d) < least(a, b);
+    if is_apart([a.x, b.x], [c.x, d.x]) || is_apart([a.y, b.y], [c.y, d.y]) {
         return false;
     }
     let side = |p: Point2, q: Point2, r: Point2| (q - p).perp(&(r - p));

@@ -7,6 +7,7 @@ use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side, polyline};
 
 use super::Border;
+use super::inset::is_longer;
 
 /// Most boundaries have no more points.
 const USUAL_POINTS: usize = 64;
@@ -144,7 +145,7 @@ impl Boundary {
         let count = path.len();
         for index in 0..count {
             let point = path[if against { count - 1 - index } else { index }];
-            if self.points.last().is_none_or(|last| (point - last).norm() > 1e-3) {
+            if self.points.last().is_none_or(|last| is_longer(&(point - last), 1e-3)) {
                 self.points.push(point);
                 self.pieces.push(piece);
             } else if let Some(last) = self.pieces.last_mut() {

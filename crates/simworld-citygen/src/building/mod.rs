@@ -25,6 +25,7 @@ use simworld_core::seed::Seed;
 pub use surveyed::Surveyed;
 
 use crate::BuildingConfig;
+use crate::key::stream_at;
 use crate::lot::{Land, Lot};
 use crate::occupancy::Occupancy;
 use crate::range::{is_place, is_size};
@@ -220,9 +221,8 @@ pub fn build(
 
 /// A name for a building that came later: a function of where it stands, but for the names that are given already.
 pub(crate) fn name_for(building: &Building, seed: Seed, is_taken: impl Fn(&str) -> bool) -> Option<String> {
-    let key = |x: f64| (x * 100.0).round() as i64 as u64;
     let streams = seed.stream("citygen/buildings").named("later names");
-    let mut rng = streams.indexed(key(building.center.x)).indexed(key(building.center.y)).rng();
+    let mut rng = stream_at(building.center, 100.0, streams).rng();
     names::free(building.place, &mut rng, is_taken)
 }
 

@@ -10,6 +10,7 @@ use super::site::{Site, Spot};
 use super::weights::Weights;
 use super::{ARCHETYPES, Archetype, Building, Footprint, access};
 use crate::BuildingConfig;
+use crate::key::stream_at;
 use crate::lot::{Land, Lot};
 use crate::occupancy::overlap;
 
@@ -99,9 +100,7 @@ impl<'a> Planner<'a> {
 
     /// The stream of a lot: a function of where it lies.
     fn rng(&self, lot: &Lot) -> StreamRng {
-        let origin = self.land.outline(lot)[0];
-        let key = |x: f64| (x * 100.0).round() as i64 as u64;
-        self.streams.indexed(key(origin.x)).indexed(key(origin.y)).rng()
+        stream_at(self.land.outline(lot)[0], 100.0, self.streams).rng()
     }
 
     /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;

@@ -60,7 +60,7 @@ impl Weights {
         (width, depth): (f64, f64),
         first: usize,
     ) -> impl Iterator<Item = &'static Archetype> + use<> {
-        let step = |size: f64| ((size * PER_METRE) as usize).min(SIZES - 1);
+        let step = |size: f64| ((size * PER_METRE) as u32 as usize).min(SIZES - 1);
         let all = self.fillers[lot.zone as usize] & self.narrow[step(width)] & self.shallow[step(depth)];
         let behind = all & (u32::MAX << first);
         // Those before the first come after the last.
@@ -74,7 +74,7 @@ impl Weights {
 
     /// A kind for a lot.
     pub(super) fn draw(&self, lot: &Lot, rng: &mut StreamRng) -> &'static Archetype {
-        let level = ((lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
+        let level = ((lot.density * LEVELS as f64) as u32 as usize).min(LEVELS - 1);
         let sums = &self.sums[lot.zone as usize * LEVELS + level];
         let drawn = rng.unit() * sums[ARCHETYPES.len() - 1];
         let passed = sums.partition_point(|sum| *sum <= drawn);

@@ -10,6 +10,7 @@ use super::kinds::shape_of;
 use super::{Element, Setting};
 use crate::ElementConfig;
 use crate::block::Border;
+use crate::key::stream_at;
 use crate::lot::{Green, GreenKind};
 use crate::occupancy::Occupancy;
 use crate::threads;
@@ -73,9 +74,8 @@ fn think_of(
     if columns * rows > MOST_POINTS {
         return;
     }
-    let key = |x: f64| (x * 100.0).round() as i64 as u64;
     let edges = edges(outline);
-    let mut rng = streams.indexed(key(low.x)).indexed(key(low.y)).rng();
+    let mut rng = stream_at(low, 100.0, streams).rng();
     for row in 0..rows as u32 {
         for column in 0..columns as u32 {
             let jitter = Vector2::new(rng.unit(), rng.unit());
@@ -85,10 +85,16 @@ fn think_of(
             }
             let shape = shape_of(EntityKind::Tree, &mut rng);
             let tree = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
-            let ground = tree.obb().footprint();
-            trees.push((tree, ground));
+            trees.push((tree, ground_of(&tree)));
         }
     }
+}
+
+/// The ground of a tree, which looks nowhere: its box lies along the axes.
+fn ground_of(tree: &Element) -> [Point2; 4] {
+    let half = tree.shape.size() * 0.5;
+    [(half.x, half.y), (-half.x, half.y), (-half.x, -half.y), (half.x, -half.y)]
+        .map(|(x, y)| tree.position + Vector2::new(x, y))
 }
 
 /// An edge of a green: its ends, the way from the one to the other, and the square of its length, m².
@@ -101,25 +107,48 @@ fn edges(outline: &[Point2]) -> SmallVec<[Edge; 8]> {
 }
 
 /// Whether a point lies within an outline, clear of its edges.
+#[expect(clippy::needless_bitwise_bool, reason = "which edges pass the height of a point cannot be foretold")]
 fn is_inside(edges: &[Edge], point: Point2) -> bool {
     let mut inside = false;
     for ([a, b], edge, squared) in edges {
-        let (to, squared) = (point - a, *squared);
-        let (along, aside) = (to.dot(edge), edge.perp(&to));
-        let is_near = if along <= 0.0 {
-            to.norm_squared() < EDGE * EDGE
-        } else if along >= squared {
-            (to - edge).norm_squared() < EDGE * EDGE
-        } else {
-            aside * aside < EDGE * EDGE * squared
-        };
-        if is_near {
+        let to = point - a;
+        let aside = edge.perp(&to);
+        // Most are far from the line of the edge, and so from the edge: a hair of slack, so that rounding decides nothing.
+        if aside * aside <= EDGE * EDGE * squared * (1.0 + 1e-9) && is_near(to, edge, *squared, aside) {
             return false;
         }
         // On the left of an edge that rises past the height of the point, or on the right of one that falls.
-        if (a.y > point.y) != (b.y > point.y) && (aside > 0.0) == (edge.y > 0.0) {
-            inside = !inside;
-        }
+        inside ^= ((a.y > point.y) != (b.y > point.y)) & ((aside > 0.0) == (edge.y > 0.0));
     }
     inside
+}
+
+/// Whether what lies so far from the beginning of an edge, and so far aside of it times its length, is too near to it.
+fn is_near(to: Vector2, edge: &Vector2, squared: f64, aside: f64) -> bool {
+    let along = to.dot(edge);
+    if along <= 0.0 {
+        to.norm_squared() < EDGE * EDGE
+    } else if along >= squared {
+        (to - edge).norm_squared() < EDGE * EDGE
+    } else {
+        aside * aside < EDGE * EDGE * squared
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::seed::Seed;
+
+    use super::*;
+
+    #[test]
+    fn the_ground_of_a_tree_is_that_of_its_box_to_the_bit() {
+        let mut rng = Seed(4).stream("trees").rng();
+        for _ in 0..1000 {
+            let position = Point2::new(rng.uniform(-1e6, 1e6), rng.uniform(-1e6, 1e6));
+            let shape = shape_of(EntityKind::Tree, &mut rng);
+            let tree = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along: Border::LAND };
+            assert_eq!(ground_of(&tree), tree.obb().footprint(), "{tree:?}");
+        }
+    }
 }

@@ -14,6 +14,7 @@ use simworld_core::seed::Stream;
 use super::{Element, Setting};
 use crate::ElementConfig;
 use crate::block::Border;
+use crate::key::stream_at;
 
 /// Length of a parking space along the kerb, m.
 const SPACE: f64 = 6.0;
@@ -71,8 +72,7 @@ fn park_in(
     let Some((from, to)) = clear_span(setting, index, &line) else { return };
     let middle = line.slice(from, to);
     let start = middle[0];
-    let key = |x: f64| (x * 100.0).round() as i64 as u64;
-    let mut rng = streams.indexed(key(start.x)).indexed(key(start.y)).rng();
+    let mut rng = stream_at(start, 100.0, streams).rng();
     for (offset, lane) in bays {
         let path = polyline::offset(&middle, *offset);
         let path = Measured::new(&path);

@@ -15,6 +15,7 @@ use super::walk::{Walk, turned};
 use super::{Element, FREE_WIDTH, Setting};
 use crate::ElementConfig;
 use crate::block::Border;
+use crate::key::stream_at;
 use crate::occupancy::Occupancy;
 use crate::threads;
 use crate::zoning::{RememberedZoning, Zone};
@@ -127,9 +128,8 @@ fn granted(wishes: Wishes, taken: &mut Occupancy) -> Vec<Element> {
 /// The stream of a sidewalk is a function of where it begins, so that a change elsewhere moves nothing here.
 fn stream_of(sidewalk: &Sidewalk, streams: Stream) -> Stream {
     let start = sidewalk.path.first().copied().unwrap_or_else(Point2::origin);
-    let key = |x: f64| (x * 100.0).round() as i64 as u64;
     let side = u64::from(sidewalk.side == Side::Right);
-    streams.indexed(key(start.x)).indexed(key(start.y)).indexed(side)
+    stream_at(start, 100.0, streams).indexed(side)
 }
 
 /// A whole number with that mean.

@@ -15,12 +15,15 @@ use simworld_core::net::{RoadNetwork, Side};
 use simworld_core::seed::{Seed, Stream};
 
 use crate::block::{Block, Border, Ring};
+use crate::key::stream_at;
 use crate::occupancy::Occupancy;
 use crate::zoning::{Zone, Zoning};
 use divide::Divider;
 
 /// Blocks that one thread divides at once.
 const CHUNK: usize = 64;
+/// Places in the streams of lots are told to a tenth of a metre, 1/m.
+const PER_METRE: f64 = 10.0;
 
 /// A piece of land with a front to a street; convex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -283,10 +286,5 @@ fn in_one<T>(parts: Vec<Vec<T>>, count: usize) -> Vec<T> {
 fn stream_of(block: &Block, streams: Stream) -> Stream {
     let low =
         block.outline.iter().fold(Vector2::repeat(f64::INFINITY), |low, corner| low.inf(&corner.coords));
-    stream_at(low.into(), streams)
-}
-
-fn stream_at(point: Point2, streams: Stream) -> Stream {
-    let key = |x: f64| (x * 10.0).round() as i64 as u64;
-    streams.indexed(key(point.x)).indexed(key(point.y))
+    stream_at(low.into(), PER_METRE, streams)
 }

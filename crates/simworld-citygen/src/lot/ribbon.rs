@@ -7,8 +7,9 @@ use super::corner::{Corner, Front};
 use super::divide::{Divider, longest_front};
 use super::opposite::{Opposite, shared};
 use super::slabs::{Street, front, stations};
-use super::{GreenKind, stream_at};
+use super::{GreenKind, PER_METRE};
 use crate::block::{Block, Border, Ring, Split};
+use crate::key::stream_at;
 use crate::occupancy::Occupancy;
 use crate::zoning::Zone;
 
@@ -52,7 +53,7 @@ pub(super) fn line(
     for (index, length) in order {
         let street = street_of(index, length);
         // A stream for each front, so that a change elsewhere on the outskirts changes no lot here.
-        divider.rng = stream_at(street.start, streams).rng();
+        divider.rng = stream_at(street.start, PER_METRE, streams).rng();
         let is_park = enter(divider, &street, length) == Zone::Park;
         let size = divider.size();
         let depth = size.depth.min(size.most_area / size.most_width);

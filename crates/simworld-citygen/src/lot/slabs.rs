@@ -28,20 +28,21 @@ pub(super) fn divide(divider: &mut Divider<'_>, piece: Ring, style: LotStyle) {
         .collect();
     // Longest first; equal ones in the order of the piece.
     streets.sort_by(|a, b| b.3.total_cmp(&a.3));
-    let (mut row, mut rest) = (Ring::default(), Ring::default());
-    let mut left = piece;
+    // What is left and what is left of that change places: their names do, for a ring is long.
+    let (mut one, mut other, mut row) = (piece, Ring::default(), Ring::default());
+    let (mut left, mut rest) = (&mut one, &mut other);
     let mut rows: Vec<(Ring, Street)> = Vec::with_capacity(streets.len());
     for (border, start, along, _) in &streets {
         let street = Street { border: *border, start: *start, along: *along };
-        let depth = depth(divider, &left, &street, &streets, style);
+        let depth = depth(divider, left, &street, &streets, style);
         let inwards = street.inwards();
-        match left.split(street.start + inwards * depth, inwards, &mut row, &mut rest) {
+        match left.split(street.start + inwards * depth, inwards, &mut row, rest) {
             Split::Both => {
                 rows.push((std::mem::take(&mut row), street));
                 std::mem::swap(&mut left, &mut rest);
             }
             Split::Behind => {
-                rows.push((std::mem::take(&mut left), street));
+                rows.push((std::mem::take(left), street));
                 break;
             }
             Split::Ahead => {}
@@ -50,7 +51,7 @@ pub(super) fn divide(divider: &mut Divider<'_>, piece: Ring, style: LotStyle) {
     for (row, street) in &rows {
         slice(divider, row, street);
     }
-    divider.green(&left, GreenKind::Courtyard);
+    divider.green(left, GreenKind::Courtyard);
 }
 
 /// A straight front of a piece, with the land on its left.
@@ -109,7 +110,8 @@ pub(super) fn stations<'a>(
         return;
     };
     let size = divider.size();
-    let (mut left, mut lot, mut rest) = (row.clone(), Ring::default(), Ring::default());
+    let (mut one, mut other, mut lot) = (row.clone(), Ring::default(), Ring::default());
+    let (mut left, mut rest) = (&mut one, &mut other);
     loop {
         let room = end - station;
         let mut width = divider.rng.uniform(size.least_width, 0.5 * (size.least_width + size.most_width));
@@ -120,7 +122,7 @@ pub(super) fn stations<'a>(
             width = room * 0.5;
         }
         station += width;
-        match left.split(street.start + street.along * station, street.along, &mut lot, &mut rest) {
+        match left.split(street.start + street.along * station, street.along, &mut lot, rest) {
             Split::Both => {
                 take(divider, &lot);
                 std::mem::swap(&mut left, &mut rest);
@@ -129,7 +131,7 @@ pub(super) fn stations<'a>(
             Split::Ahead => {}
         }
     }
-    take(divider, &left);
+    take(divider, left);
 }
 
 /// From where to where a row borders its street, as stations on the street's line, m.

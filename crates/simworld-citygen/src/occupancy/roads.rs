@@ -101,7 +101,7 @@ impl Occupancy {
                 continue;
             }
             let across = Vector2::new(-along.y, along.x) / length;
-            let count = (length / LONGEST_STRIP).ceil();
+            let count = if length > LONGEST_STRIP { (length / LONGEST_STRIP).ceil() } else { 1.0 };
             for step in 0..count as u32 {
                 let at = |share: f64| pair[0] + along * (share / count);
                 let (start, end) = (at(f64::from(step)), at(f64::from(step) + 1.0));

@@ -92,12 +92,10 @@ impl Block {
         let nowhere = !not_zero(!self.low[0]) & TOPS;
         let place = (nowhere.trailing_zeros() as usize / 8).min(ROOM - 1);
         self.items[place] = item;
-        let set = |lanes: &mut Lanes, byte: u8| {
-            *lanes = *lanes & !(0xFF << (8 * place)) | Lanes::from(byte) << (8 * place);
-        };
+        // What is nowhere begins at the highest number and ends at zero: only what differs from that is set.
         for axis in 0..2 {
-            set(&mut self.low[axis], window.low[axis]);
-            set(&mut self.high[axis], window.high[axis]);
+            self.low[axis] ^= Lanes::from(window.low[axis] ^ NOWHERE) << (8 * place);
+            self.high[axis] |= Lanes::from(window.high[axis]) << (8 * place);
         }
     }
 

@@ -58,6 +58,7 @@ impl Shape {
     }
 
     /// Length, width and height of the box around the shape in its body frame, m.
+    #[inline]
     pub fn size(&self) -> Vector3 {
         match *self {
             Self::Box { size } => size,
@@ -69,6 +70,7 @@ impl Shape {
     }
 
     /// The oriented box around the shape at a pose.
+    #[inline]
     pub fn obb(&self, world_from_body: &Pose) -> Obb {
         let half_extents = self.size() * 0.5;
         let to_center = nalgebra::Translation3::new(0.0, 0.0, half_extents.z);

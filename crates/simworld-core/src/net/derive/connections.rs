@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::ends::{End, Ends};
 use super::legs::{Leg, Legs};
 use super::near_side::Search;
-use super::trace::{Trace, Traces};
+use super::trace::{Strip, Trace, Traces};
 use super::workers::{self, PART, Workers};
 use super::{cycles, hammerhead, kerbs, near_side};
 use crate::geometry::Point2;
@@ -35,6 +35,7 @@ struct Builder {
     traces: Traces,
     claims: Vec<Claim>,
     met: Vec<Meeting>,
+    strips: Vec<(CrossingId, Strip)>,
     search: Search,
 }
 
@@ -304,10 +305,9 @@ fn path(
     if turn == Turn::UTurn || place.legs[next].street != exit.road.index() {
         return search.curves.curve(start, arriving_along, end, end_along);
     }
-    let smooth = search.curves.dense_curve(start, arriving_along, end, end_along).collect();
     let way = near_side::Way { from: leg, start, to: &place.legs[next], end };
     let corner = (&network.intersections[place.id.index()], place.leg);
-    near_side::keep_off(network, corner, &way, smooth, search)
+    near_side::keep_off(network, corner, &way, (arriving_along, end_along), search)
 }
 
 fn connection(
@@ -395,12 +395,16 @@ impl Builder {
 
     /// Sets over which crossings of the intersection each connection leads.
     fn set_crossings(&mut self, all: &[CrossingId], network: &RoadNetwork) {
-        for claim in &self.claims {
-            let is_over = |crossing: &CrossingId| {
-                let strip = &network.crossings[crossing.index()];
-                self.traces.crosses(&claim.trace, strip.start, strip.end)
-            };
-            self.made[claim.id.index()].crossings = all.iter().copied().filter(is_over).collect();
+        let Self { made, claims, traces, strips, .. } = self;
+        let strip = |id: &CrossingId| {
+            let crossing = &network.crossings[id.index()];
+            (*id, Strip::of(crossing.start, crossing.end))
+        };
+        strips.clear();
+        strips.extend(all.iter().map(strip));
+        for claim in claims.iter() {
+            let over = strips.iter().filter(|(_, strip)| traces.crosses(&claim.trace, strip));
+            made[claim.id.index()].crossings = over.map(|(crossing, _)| *crossing).collect();
         }
     }
 }

@@ -21,6 +21,12 @@ impl Extent {
         }
     }
 
+    /// The same so far on along either axis.
+    pub(super) fn moved(&self, by: [f64; 2]) -> Self {
+        let [low, high] = [self.low, self.high].map(|ends| [ends[0] + by[0], ends[1] + by[1]]);
+        Self { low, high }
+    }
+
     /// The gap between two of them along either axis; negative where they overlap.
     pub(super) fn gaps(&self, other: &Self) -> [f64; 2] {
         let gap = |axis: usize| greater(other.low[axis] - self.high[axis], self.low[axis] - other.high[axis]);

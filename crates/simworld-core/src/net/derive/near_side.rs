@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use super::beside::Kerb;
 use super::curve::Curves;
 use super::legs::Leg;
-use crate::geometry::{Point2, direction, heading};
+use crate::geometry::{Point2, Vector2, direction, heading};
 use crate::net::polyline::{self, Measured};
 use crate::net::{Intersection, RoadNetwork};
 
@@ -44,7 +44,8 @@ fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
 pub(super) struct Search {
     pub(super) curves: Curves,
     kerb: Kerb,
-    /// The way that is tried.
+    /// The best way so far, and the one that is tried.
+    best: Vec<Point2>,
     path: Vec<Point2>,
     /// Its part behind the turn.
     exit: Vec<Point2>,
@@ -53,36 +54,38 @@ pub(super) struct Search {
     line: Vec<Point2>,
 }
 
-/// The smooth curve, or the widest turn that keeps off the kerb of a leg where that one does not; where none does, the one
-/// that keeps farthest.
+/// The smooth curve that leaves and arrives along two directions, or the widest turn that keeps off the kerb of a leg where that
+/// one does not; where none does, the one that keeps farthest.
 pub(super) fn keep_off(
     network: &RoadNetwork,
     (intersection, leg): (&Intersection, usize),
     way: &Way<'_>,
-    smooth: Vec<Point2>,
+    (leaving, arriving): (Vector2, Vector2),
     search: &mut Search,
 ) -> Vec<Point2> {
     search.kerb.set(kerb(intersection, leg));
+    search.best.clear();
+    search.best.extend(search.curves.dense_curve(way.start, leaving, way.end, arriving));
     let wanted = search.kerb.clearance(&[way.start, way.end], CLEARANCE) - MARGIN;
     let enough = wanted.min(LEAST_CLEARANCE);
-    let mut best = (search.kerb.clearance(&smooth, enough), smooth);
-    if best.0 >= enough {
-        return best.1;
+    let mut clear = search.kerb.clearance(&search.best, enough);
+    if clear >= enough {
+        return search.best.clone();
     }
     let legs = [way.from, way.to].map(|leg| outwards(network, leg));
     let [from, to] = legs.each_ref().map(|line| Measured::new(line));
     let (mut into, mut out) = (way.from.stop, way.to.stop);
-    while best.0 < wanted && into.max(out) > STEP {
+    while clear < wanted && into.max(out) > STEP {
         (into, out) = ((into - STEP).max(STEP), (out - STEP).max(STEP));
         if search.turn_later(way, (&from, into), (&to, out)).is_none() {
             break;
         }
-        if let Some(clear) = search.kerb.clearance_above(&search.path, best.0, wanted) {
-            best.0 = clear;
-            best.1.clone_from(&search.path);
+        if let Some(more) = search.kerb.clearance_above(&search.path, clear, wanted) {
+            clear = more;
+            std::mem::swap(&mut search.best, &mut search.path);
         }
     }
-    best.1
+    search.best.clone()
 }
 
 /// The middle of a leg's street from the node outwards.

@@ -1,7 +1,7 @@
 //! The outside of a kerb that goes round a corner: how far from the kerb a point of the carriageway is at least.
 
 use super::pieces::LANES;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Vector2};
 use crate::ops::greater;
 
 /// Lines along some pieces of a kerb that turns to the right all the way, with the carriageway on their left.
@@ -11,11 +11,11 @@ use crate::ops::greater;
 /// an end he comes to the left of the line along the piece there alone, and then that end is nearer; to the left of a line that
 /// bends away from neither end by more than a right angle he does not come at all.
 pub(super) struct Outside {
-    x: [f64; LANES],
-    y: [f64; LANES],
     /// The directions to their left.
     left_x: [f64; LANES],
     left_y: [f64; LANES],
+    /// How far to that side of the origin they lie, m.
+    aside: [f64; LANES],
 }
 
 impl Outside {
@@ -41,22 +41,23 @@ impl Outside {
         if !goes_round {
             return None;
         }
-        let mut lines = Self { x: [0.0; LANES], y: [0.0; LANES], left_x: [0.0; LANES], left_y: [0.0; LANES] };
+        let mut lines = Self { left_x: [0.0; LANES], left_y: [0.0; LANES], aside: [0.0; LANES] };
         for (lane, piece) in [0, last / 3, last - last / 3, last].into_iter().enumerate() {
             let bends_little = ends.iter().all(|end| end.dot(&step(piece)) >= 0.0);
             let piece = if bends_little || piece == last { piece } else { 0 };
             let along = step(piece).try_normalize(1e-9)?;
-            (lines.x[lane], lines.y[lane]) = (kerb[piece].x, kerb[piece].y);
-            (lines.left_x[lane], lines.left_y[lane]) = (-along.y, along.x);
+            let left = Vector2::new(-along.y, along.x);
+            (lines.left_x[lane], lines.left_y[lane]) = (left.x, left.y);
+            lines.aside[lane] = kerb[piece].coords.dot(&left);
         }
         Some(lines)
     }
 
-    /// The kerb is no nearer to a point than this, m, and has it on its left, if this is more than nothing.
+    /// The kerb is no nearer to a point than this, m, and has it on its left, if this is more than nothing: but for what is
+    /// rounded, some 10 nm ten thousand kilometres from the origin.
     pub(super) fn least(&self, point: &Point2) -> f64 {
-        let beside = |lane: usize| {
-            (point.x - self.x[lane]) * self.left_x[lane] + (point.y - self.y[lane]) * self.left_y[lane]
-        };
+        let beside =
+            |lane: usize| point.x * self.left_x[lane] + point.y * self.left_y[lane] - self.aside[lane];
         greater(greater(beside(0), beside(1)), greater(beside(2), beside(3)))
     }
 }

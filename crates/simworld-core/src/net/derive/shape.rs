@@ -1,5 +1,7 @@
 //! The shape of a path as a whole: a look at another path from there says in most cases whether the two touch.
 
+use std::cell::OnceCell;
+
 use super::extent::Extent;
 use crate::geometry::{Point2, Vector2};
 use crate::ops::{greater, lesser};
@@ -27,19 +29,22 @@ impl Hull {
 }
 
 /// A path seen along and across the straight way between its ends, and from the middle about which it bends.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Shape {
     start: Point2,
     end: Point2,
-    /// The straight way from the beginning to the end, and its length, m.
+    /// The straight way from the beginning to the end, the same turned to the left, and its length, m.
     chord: Vector2,
+    left: Vector2,
     length: f64,
+    /// Where the beginning lies along and across the chord, seen from the origin, times the length of that.
+    first: [f64; 2],
     /// What the path takes along and across its chord, times the length of that.
     beside: Extent,
     hull: Hull,
     /// Of a path that bends the middle of the circle through its beginning, its middle and its end, and what the path takes of
-    /// the distance from there.
-    bend: Option<(Point2, Radii)>,
+    /// the distance from there; once it was asked for, as it is of few.
+    bend: OnceCell<Option<(Point2, Radii)>>,
     /// A quarter of the square of the length of its longest piece, m².
     sag: f64,
 }
@@ -49,18 +54,25 @@ impl Shape {
     pub(super) fn of(path: &[Point2], longest: f64) -> Self {
         let start = path.first().copied().unwrap_or_else(Point2::origin);
         let end = path.last().copied().unwrap_or(start);
-        let (chord, sag) = (end - start, longest * 0.25);
-        let length = chord.norm();
-        let (beside, hull) = (Extent::NONE, Hull::everywhere(start));
-        let shape = Self { start, end, chord, length, beside, hull, bend: None, sag };
-        let bend = path.get(path.len() / 2).and_then(|middle| shape.center(middle - start));
-        let beside = shape.seen(path);
-        Self {
-            beside,
-            hull: if length > SHORTEST { shape.hull_of(&beside) } else { hull },
-            bend: bend.map(|center| (center, Radii::of(path, center, sag))),
-            ..shape
+        let chord = end - start;
+        let mut shape = Self {
+            start,
+            end,
+            chord,
+            left: Vector2::new(-chord.y, chord.x),
+            length: chord.norm(),
+            first: [0.0; 2],
+            beside: Extent::NONE,
+            hull: Hull::everywhere(start),
+            bend: OnceCell::new(),
+            sag: longest * 0.25,
+        };
+        shape.first = shape.turned(&start);
+        shape.beside = shape.seen(path);
+        if shape.length > SHORTEST {
+            shape.hull = shape.hull_of(&shape.beside);
         }
+        shape
     }
 
     /// The middle of the circle through both ends and a point that lies so far from the first; `None` where the three are as good as
@@ -73,18 +85,25 @@ impl Shape {
         (to_center.norm_squared() < FARTHEST * FARTHEST).then(|| self.start + to_center)
     }
 
-    /// Where a point lies along and across the chord.
+    /// Where a point lies along and across the chord, seen from the origin.
+    fn turned(&self, point: &Point2) -> [f64; 2] {
+        let (chord, left) = (&self.chord, &self.left);
+        [point.x * chord.x + point.y * chord.y, point.x * left.x + point.y * left.y]
+    }
+
+    /// The same from the beginning. Ten thousand kilometres from the origin some 10 nm of it are rounded.
     fn locate(&self, point: &Point2) -> [f64; 2] {
-        let (x, y) = (point.x - self.start.x, point.y - self.start.y);
-        [x * self.chord.x + y * self.chord.y, y * self.chord.x - x * self.chord.y]
+        let [along, across] = self.turned(point);
+        [along - self.first[0], across - self.first[1]]
     }
 
     fn seen(&self, path: &[Point2]) -> Extent {
         let mut extent = Extent::NONE;
         for point in path {
-            extent.add(self.locate(point));
+            extent.add(self.turned(point));
         }
-        extent
+        // What is least stays least: this is subtracted once for all.
+        extent.moved(self.first.map(|first| -first))
     }
 
     /// What lies so far along and across the chord.
@@ -92,11 +111,10 @@ impl Shape {
         let inverse = 0.5 / (self.length * self.length);
         let middle = [0, 1].map(|axis| (extent.low[axis] + extent.high[axis]) * inverse);
         let half = [0, 1].map(|axis| (extent.high[axis] - extent.low[axis]) * inverse);
-        let across = Vector2::new(-self.chord.y, self.chord.x);
         Hull {
-            middle: self.start + self.chord * middle[0] + across * middle[1],
+            middle: self.start + self.chord * middle[0] + self.left * middle[1],
             along: self.chord * half[0],
-            across: across * half[1],
+            across: self.left * half[1],
         }
     }
 
@@ -150,13 +168,21 @@ impl Shape {
         self.beside.apart(&seen) > SLACK * self.length
     }
 
-    /// Whether another path bends about the same middle, more than `limit` m farther out or in.
-    pub(super) fn is_round(&self, other: &Self, path: &[Point2], limit: f64) -> bool {
+    /// The middle about which its path bends, and what that takes of the distance from there.
+    fn bend(&self, path: &[Point2]) -> Option<(Point2, Radii)> {
+        *self.bend.get_or_init(|| {
+            let center = self.center(path.get(path.len() / 2)? - self.start)?;
+            Some((center, Radii::of(path, center, self.sag)))
+        })
+    }
+
+    /// Whether another path bends about the same middle as its own, more than `limit` m farther out or in.
+    pub(super) fn is_round(&self, own: &[Point2], other: &Self, path: &[Point2], limit: f64) -> bool {
         let is_apart = |(center, own): (Point2, Radii)| {
             let seen = Radii::of(path, center, other.sag);
             greater(seen.low.sqrt() - own.high.sqrt(), own.low.sqrt() - seen.high.sqrt()) > limit + SLACK
         };
-        self.bend.is_some_and(is_apart)
+        self.bend(own).is_some_and(is_apart)
     }
 }
 

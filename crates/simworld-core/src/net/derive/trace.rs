@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::extent::Extent;
 use super::pieces::{LANES, Pieces};
 use super::shape::Shape;
-use crate::geometry::Point2;
+use crate::geometry::{Point2, Vector2};
 use crate::net::polyline;
 use crate::ops::{greater, lesser};
 
@@ -69,6 +69,26 @@ pub(super) struct Trace {
     shape: Shape,
 }
 
+/// A strip that paths may cross: the segment along it.
+pub(super) struct Strip {
+    start: Point2,
+    end: Point2,
+    along: Vector2,
+    extent: Extent,
+    /// What lies farther than this from its line lies on one side of it: times the length of the strip, m².
+    least: f64,
+}
+
+impl Strip {
+    pub(super) fn of(start: Point2, end: Point2) -> Self {
+        let mut extent = Extent::NONE;
+        extent.add([start.x, start.y]);
+        extent.add([end.x, end.y]);
+        let along = end - start;
+        Self { start, end, along, extent, least: SLACK * along.norm() }
+    }
+}
+
 /// The paths across one junction, one after another.
 #[derive(Default)]
 pub(super) struct Traces {
@@ -116,7 +136,7 @@ impl Traces {
         if let Some(touches) = plain {
             return touches;
         }
-        if a.shape.is_round(&b.shape, other, limit) || b.shape.is_round(&a.shape, own, limit) {
+        if a.shape.is_round(own, &b.shape, other, limit) || b.shape.is_round(other, &a.shape, own, limit) {
             return false;
         }
         self.have_points_near(a, b, limit) || self.have_pieces_near(a, b, limit)
@@ -160,16 +180,12 @@ impl Traces {
         &path[rank * LANES..path.len().min((rank + 1) * LANES + 1)]
     }
 
-    /// Whether a path crosses a segment.
-    pub(super) fn crosses(&self, trace: &Trace, start: Point2, end: Point2) -> bool {
-        let mut strip = Extent::NONE;
-        strip.add([start.x, start.y]);
-        strip.add([end.x, end.y]);
-        // A piece with both ends on one side of the segment's line does not cross it.
-        let along = end - start;
-        let least = SLACK * along.norm();
+    /// Whether a path crosses a strip.
+    pub(super) fn crosses(&self, trace: &Trace, strip: &Strip) -> bool {
+        // A piece with both ends on one side of the strip's line does not cross it.
+        let Strip { start, end, along, extent, least } = *strip;
         let is_off = trace.shape.is_beside(&start, &end) | trace.shape.is_aside(start, along, least);
-        if (strip.apart(&trace.extent) > SLACK) | is_off {
+        if (extent.apart(&trace.extent) > SLACK) | is_off {
             return false;
         }
         let side = |point: &Point2| along.perp(&(point - start));
@@ -201,7 +217,7 @@ impl Traces {
     fn have_points_near(&mut self, a: &Trace, b: &Trace, limit: f64) -> bool {
         for (samples, trace) in self.samples.iter_mut().zip([a, b]) {
             samples.clear();
-            sample(&self.points[trace.points.clone()], samples);
+            sample(&self.points[trace.points.clone()], trace.longest, samples);
         }
         let (near, [samples, others]) = (limit * limit, &self.samples);
         // All of the others at once: several fit into one instruction.
@@ -210,17 +226,18 @@ impl Traces {
     }
 }
 
-/// Adds some points on a path.
-fn sample(path: &[Point2], samples: &mut Vec<Point2>) {
-    for (index, point) in path.iter().enumerate() {
-        if index % STRIDE == STRIDE / 2 {
-            samples.push(*point);
-        }
-        let step = path.get(index + 1).unwrap_or(point) - point;
+/// Adds some points on a path, of which the length of the longest piece is given, m.
+fn sample(path: &[Point2], longest: f64, samples: &mut Vec<Point2>) {
+    samples.extend(path.iter().skip(STRIDE / 2).step_by(STRIDE));
+    if longest <= SPACING {
+        return;
+    }
+    for piece in path.windows(2) {
+        let step = piece[1] - piece[0];
         let squared = step.norm_squared();
         if squared > SPACING * SPACING {
             let parts = (squared.sqrt() / SPACING).ceil();
-            samples.extend((1..parts as usize).map(|part| point + step * (part as f64 / parts)));
+            samples.extend((1..parts as usize).map(|part| piece[0] + step * (part as f64 / parts)));
         }
     }
 }
@@ -233,7 +250,6 @@ fn cross(a: &[Point2], b: &[Point2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Vector2;
     use crate::seed::Seed;
 
     fn touch(a: &[Point2], b: &[Point2], limit: f64) -> bool {
@@ -288,7 +304,7 @@ mod tests {
             for (own, other) in [(&a, &b), (&b, &a)] {
                 assert_eq!(touch(own, other, 2.3), expected, "{a:?} {b:?}");
                 let shape = |path: &[Point2]| Traces::default().add(path).shape;
-                plain += usize::from(shape(own).is_round(&shape(other), other, 2.3));
+                plain += usize::from(shape(own).is_round(own, &shape(other), other, 2.3));
             }
         }
         assert!((800..3200).contains(&near) && plain > 800, "{near} of 4000, {plain} of 8000 say nothing");
@@ -306,7 +322,7 @@ mod tests {
             let expected =
                 path.windows(2).any(|piece| polyline::crossing(piece[0], piece[1], start, end).is_some());
             crossed += usize::from(expected);
-            assert_eq!(traces.crosses(&trace, start, end), expected, "{path:?} {start} {end}");
+            assert_eq!(traces.crosses(&trace, &Strip::of(start, end)), expected, "{path:?} {start} {end}");
         }
         assert!((400..1600).contains(&crossed), "{crossed} of 2000 say nothing");
     }
