@@ -5,6 +5,7 @@ use simworld_core::net::polyline;
 
 use super::web::Web;
 use crate::osm::error::{OsmId, Warning};
+use crate::osm::mask::Mask;
 use crate::osm::place::Place;
 
 /// Width of a cell of the search grid, m.
@@ -25,9 +26,29 @@ pub(super) struct Crossing {
     pub(super) at: Point2,
 }
 
-/// Puts a node where streets of one level cross without one. Bridges and tunnels pass without.
-pub(super) fn cut_crossings(web: &mut Web, place: &Place, warnings: &mut Vec<Warning>) {
-    let (crossings, is_complete) = crossings(web);
+/// How long all edges are, m: whatever is drawn elsewhere is of another length.
+pub(super) fn lengths(web: &Web) -> Vec<f64> {
+    (0..web.edges.len() as u32).map(|edge| web.length(edge)).collect()
+}
+
+/// Where streets lie that were drawn elsewhere since then, or not at all.
+fn drawn_anew(web: &Web, before: &[f64]) -> Mask {
+    let mut mask = Mask::new();
+    for (edge, _) in web.living().filter(|(edge, _)| before.get(*edge as usize) != Some(&web.length(*edge))) {
+        web.course(edge).windows(2).for_each(|piece| mask.mark(piece, 0.0));
+    }
+    mask
+}
+
+/// Puts a node where streets of one level cross without one, beside whatever was drawn anew since its [`lengths`] were taken, if there are
+/// any. Bridges and tunnels pass without. Says whether any did.
+pub(super) fn cut_crossings(
+    web: &mut Web,
+    before: Option<&[f64]>,
+    place: &Place,
+    warnings: &mut Vec<Warning>,
+) -> bool {
+    let (crossings, is_complete) = crossings(web, before);
     if !is_complete {
         let what = "the streets lie too densely; crossings without a node were not all found".to_owned();
         warnings.push(Warning { what, element: None, at: None });
@@ -57,6 +78,7 @@ pub(super) fn cut_crossings(web: &mut Web, place: &Place, warnings: &mut Vec<War
             Some(known) => web.merge(node, known, places[place as usize]),
         }
     }
+    !places.is_empty()
 }
 
 /// A straight piece of an edge.
@@ -68,11 +90,15 @@ struct Piece {
     station: f64,
 }
 
-/// All crossings of edges away from common nodes, in the order of their edges; whether all were looked for.
-pub(super) fn crossings(web: &Web) -> (Vec<Crossing>, bool) {
+/// All crossings of edges away from common nodes, or those beside what was drawn anew, in the order of their edges; whether all were looked
+/// for.
+fn crossings(web: &Web, before: Option<&[f64]>) -> (Vec<Crossing>, bool) {
     let mut pieces = Vec::new();
     for (edge, _) in web.living() {
         put_pieces(web, edge, &mut pieces);
+    }
+    if let Some(anew) = before.map(|before| drawn_anew(web, before)) {
+        pieces.retain(|piece| anew.touches(&piece.ends, 0.0));
     }
     let mut cells: Vec<(u64, u32)> = Vec::with_capacity(pieces.len() * 2);
     let mut is_complete = true;

@@ -107,8 +107,9 @@ impl Place {
     ) -> Planned {
         let mut web = split::web_of(self, options, is_left_hand(self), warnings);
         web.join_all();
-        cross::cut_crossings(&mut web, self, warnings);
+        cross::cut_crossings(&mut web, None, self, warnings);
         web.simplify();
+        let lengths = cross::lengths(&web);
         if options.merge > 0.0 {
             merge::merge_junctions(&mut web, self, options.merge);
             pair::join_carriageways(&mut web, options.merge);
@@ -119,6 +120,10 @@ impl Place {
         pair::join_carriageways(&mut web, options.merge);
         // Joined carriageways are wider, and their junctions reach farther.
         collapse::collapse_tight(&mut web);
+        // What was drawn together may lie across others now.
+        if cross::cut_crossings(&mut web, Some(&lengths), self, warnings) {
+            collapse::collapse(&mut web, self, warnings);
+        }
         tidy::part_doubles(&mut web, self, warnings);
         if options.parts == Parts::Largest {
             tidy::keep_largest(&mut web, self, warnings);
