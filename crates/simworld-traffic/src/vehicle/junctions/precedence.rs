@@ -10,6 +10,7 @@
 
 use simworld_core::net::{Aspect, time_over};
 
+use super::haste::Haste;
 use super::junction::horizon;
 use crate::vehicle::driving::lookahead::BEFORE_LINE;
 use crate::vehicle::foreign::strangers;
@@ -23,11 +24,6 @@ use crate::vehicle::{Idm, Way};
 pub(in crate::vehicle) const MARGIN: f64 = 0.5;
 /// Time by which one delays who has priority, at most, s: the gaps of the manual leave no more than that.
 const DELAYS: f64 = 1.0;
-/// Who has stood at his line for so long, s, begins to take shorter gaps, and after so long takes any before which who has priority can
-/// still brake gently, delayed by so much more, s.
-const CALM_FOR: f64 = 60.0;
-const HASTY_AFTER: f64 = 180.0;
-const HASTY_DELAYS: f64 = 3.0;
 /// Who comes up behind somebody that turns into its lane has lost so much time by its line, s, as it is seen in our streams; the
 /// gaps of the manual are those that were measured there, with what was lost.
 const EASES: f64 = 0.35;
@@ -109,8 +105,7 @@ pub(in crate::vehicle) struct Asker {
     speed: f64,
     /// By how much who goes before it delays it, s.
     delay: f64,
-    /// How impatient it is, from 0 to 1.
-    haste: f64,
+    haste: Haste,
 }
 
 impl Asker {
@@ -125,7 +120,7 @@ impl Asker {
             acceleration: row.driver.acceleration * hurry,
             speed: row.free_speed(scene.config, vehicle.factor, tracks.ways[way].speed),
             delay: 0.0,
-            haste: 0.0,
+            haste: Haste::NONE,
         }
     }
 
@@ -170,7 +165,7 @@ impl Asker {
         // Where both end in one lane the other must come down to one's own speed.
         let excess = if conflict.merges { (comer.v - self.speed_at(gone)).max(0.0) } else { 0.0 };
         let slowed = excess * excess / (2.0 * EASILY * comer.v.max(1.0));
-        let delays = DELAYS + HASTY_DELAYS * self.haste;
+        let delays = DELAYS + self.haste.delays();
         let margin = if conflict.yields { -delays } else { MARGIN };
         let takes_gap = || self.time(gone) + self.asks_for(conflict, gone) <= comer.time(0.0);
         (!conflict.yields || takes_gap())
@@ -182,7 +177,7 @@ impl Asker {
     fn asks_for(&self, conflict: &Conflict, gone: f64) -> f64 {
         let eases = if conflict.merges { EASES } else { 0.0 };
         let from_rest = |way| time_over(BEFORE_LINE + way, 0.0, self.acceleration, self.speed);
-        f64::from(conflict.critical) * (1.0 - self.haste) - eases - (from_rest(gone) - from_rest(0.0))
+        self.haste.shortens(f64::from(conflict.critical)) - eases - (from_rest(gone) - from_rest(0.0))
     }
 }
 
@@ -227,7 +222,7 @@ impl Part {
         asker.stay_behind(self.before(scene, vehicle, rank), &scene.config.vehicle_type(vehicle.row).driver);
         // A stranger need not give way to haste.
         let calm = asker;
-        asker.haste = haste(vehicle.stood);
+        asker.haste = Haste::of(vehicle.stood);
         tracks.conflicts[way].iter().all(|conflict| {
             let is_held = junctions.is_held(conflict.way);
             if is_held && (vehicle.is_long() || junctions.has_long(conflict.way)) {
@@ -387,11 +382,6 @@ impl Part {
             });
         }
     }
-}
-
-/// How impatient one is who has stood at his line for so long, s.
-fn haste(stood: f64) -> f64 {
-    ((stood - CALM_FOR) / (HASTY_AFTER - CALM_FOR)).clamp(0.0, 1.0)
 }
 
 /// The acceleration with which one comes in so much time as near to a stretch as one may while somebody could still stop in it, m/s²;

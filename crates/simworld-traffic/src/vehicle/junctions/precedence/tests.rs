@@ -42,7 +42,15 @@ fn who_rolls_needs_a_shorter_gap() {
         other: zone(8.9, 17.9),
     };
     let asks = |distance, v| {
-        let asker = Asker { distance, v, length: 4.5, acceleration: 1.95, speed: 5.7, delay: 0.0, haste: 0.0 };
+        let asker = Asker {
+            distance,
+            v,
+            length: 4.5,
+            acceleration: 1.95,
+            speed: 5.7,
+            delay: 0.0,
+            haste: Haste::NONE,
+        };
         // The least gap between its own line and that of who comes.
         let gone = conflict.own.passed() + asker.length;
         asker.time(gone) + asker.asks_for(&conflict, gone) - asker.time(0.0)
