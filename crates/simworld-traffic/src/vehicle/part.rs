@@ -53,6 +53,8 @@ pub(crate) struct Work {
     pub(super) requests: Vec<Request>,
     /// Lanes behind an intersection whose room is kept for one who has waited too long, and for whom.
     pub(super) reserved: Vec<(Track, u32)>,
+    /// Ways at an intersection by which somebody goes who has waited far too long: those that meet them are left to him.
+    pub(super) let_in: Vec<u32>,
     /// Whom one who asks for leave would overtake in the order of leave: lane and rank.
     pub(super) overtaken: Vec<(u32, u32)>,
     /// Its ways that somebody holds, while accelerations are computed.

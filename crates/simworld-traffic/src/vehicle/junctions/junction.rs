@@ -281,7 +281,7 @@ impl Part {
                 self.work.wishes.extend(wish.filter(|wish| wish.comes_early(scene.tracks)));
             }
             let track = self.layout(scene.tracks).tracks[lane];
-            let is_free = self.leaves_room_to_the_patient(scene, &vehicle);
+            let is_free = self.leaves_room_to_the_patient(scene, &vehicle) && self.lets_in(scene, &vehicle);
             if is_free && may_enter(self, scene, (track, rank), &vehicle, &mut overtaken) {
                 if let Some(wish) = wants_permit(scene, &vehicle).filter(|_| !may_pass(scene, &vehicle)) {
                     self.work.wishes.push(wish);
@@ -300,6 +300,8 @@ impl Part {
                 if may_pass(scene, &vehicle) {
                     self.work.used_passes.push(vehicle.id);
                 }
+            } else if is_free && rank == 0 {
+                self.ask_courtesy(scene, &vehicle, scene.tracks.length[track as usize] - vehicle.s);
             }
         }
         self.work.overtaken = overtaken;
@@ -309,6 +311,7 @@ impl Part {
     /// with the longest first.
     fn reserve(&mut self, scene: &Scene<'_>, requests: &[Request]) {
         self.work.reserved.clear();
+        self.work.let_in.clear();
         let patient = requests.iter().take_while(|request| request.stood > PATIENT);
         for request in patient.filter(|request| request.rank == 0) {
             let next = self.slabs.queue(request.lane as usize)[0].next as usize;
