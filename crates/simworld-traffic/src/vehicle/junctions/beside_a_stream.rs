@@ -5,6 +5,7 @@ use std::sync::Arc;
 use simworld_core::geometry::Point2;
 use simworld_core::id::LaneId;
 use simworld_core::net::{Alone, NetworkConfig, RoadNetwork, StreetPlan, Turn};
+use simworld_core::ops;
 use simworld_core::seed::Seed;
 
 use crate::vehicle::clock::Moment;
@@ -85,8 +86,9 @@ pub(super) fn waits(stood: f64, every: u32, angle: f64, is_owed: bool) -> Wait {
 /// Two streets of one lane a direction that cross at an angle.
 fn crossing(angle: f64) -> StreetPlan {
     let mut plan = StreetPlan::crossroads(150.0);
+    let (sin, cos) = ops::sin_cos(angle);
     for (node, sign) in [(2, 1.0), (4, -1.0)] {
-        plan.nodes[node] = Point2::new(sign * 150.0 * angle.cos(), sign * 150.0 * angle.sin());
+        plan.nodes[node] = Point2::new(sign * 150.0 * cos, sign * 150.0 * sin);
     }
     plan
 }
