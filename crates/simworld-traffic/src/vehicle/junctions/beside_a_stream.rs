@@ -32,7 +32,8 @@ pub(super) struct Wait {
 pub(super) fn waits(stood: f64, every: u32, angle: f64, is_owed: bool) -> Wait {
     let config = NetworkConfig { signals_from_roads: 0, ..NetworkConfig::default() };
     let network = RoadNetwork::derive(&crossing(angle), &config).expect("it is a plan");
-    let config = TrafficConfig::default();
+    // Who has stood long can take no other way.
+    let config = TrafficConfig { turns: [1.0, 0.0, 0.0], ..TrafficConfig::default() };
     let tracks = Tracks::new(Arc::new(network), &config);
     let mut vehicles = VehicleManager::new(&tracks);
     let is_straight = |way: usize| tracks.network.connections[way].turn == Turn::Straight;

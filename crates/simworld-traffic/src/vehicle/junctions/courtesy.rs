@@ -26,6 +26,9 @@ impl Part {
     /// Takes note of the first of a lane, who did not get leave, if he is to be let in now: he has stood too long, and could go but for
     /// those whose ways meet his own.
     pub(super) fn ask_courtesy(&mut self, scene: &Scene<'_>, vehicle: &Vehicle, distance: f64) {
+        if vehicle.stood < OWED {
+            return; // nearly everybody
+        }
         let way = vehicle.next as usize;
         let gives_way = |conflict: &Conflict| conflict.yields && scene.junctions.is_held(conflict.way);
         let is_owed = !scene.tracks.conflicts[way].iter().any(gives_way);
@@ -68,6 +71,8 @@ fn meet(tracks: &Tracks, one: u32, other: u32) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::super::beside_a_stream::waits;
     use super::*;
 
@@ -77,6 +82,20 @@ mod tests {
             let is_let_in =
                 [-1.0, 0.0, FOR - 1.0, FOR, EVERY - 1.0, EVERY].map(|after| is_time(first + after, is_owed));
             assert_eq!(is_let_in, [false, true, true, false, false, true]);
+        }
+    }
+
+    #[test]
+    fn who_has_stood_too_long_beside_a_stream_without_gaps_is_let_in() {
+        // So dense, and yet so fast, that there is no gap even for one in haste.
+        for every in [22, 23] {
+            let wait = waits(OVERDUE - 300.0, every, FRAC_PI_2, false);
+            assert_eq!(wait.goes, None, "there are no gaps");
+            assert!(wait.counters.crossings > 50, "the stream goes: {:?}", wait.counters);
+            let wait = waits(OVERDUE - 40.0, every, FRAC_PI_2, false);
+            let goes = wait.goes.expect("he is let in");
+            assert!((40.0..40.0 + FOR).contains(&goes), "he goes after {goes} s");
+            assert_eq!(wait.counters.forced_stops, 0);
         }
     }
 

@@ -36,9 +36,9 @@ impl Haste {
 
 #[cfg(test)]
 mod tests {
-    use super::super::beside_a_stream::waits;
     use std::f64::consts::FRAC_PI_2;
 
+    use super::super::beside_a_stream::waits;
     use super::*;
 
     #[test]
