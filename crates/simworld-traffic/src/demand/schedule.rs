@@ -106,10 +106,7 @@ impl Schedule {
     pub fn add(&mut self, departing: Departing) {
         self.due.add(departing.depart, self.departing.len());
         let once = Departures { first: departing.depart, headway: 1.0, until: f64::INFINITY, number: 1 };
-        if let Some(service) = service(&departing.line, &departing.route, &departing.stops, once) {
-            self.services.push(service);
-            self.timetable = None;
-        }
+        self.offer(service(&departing.line, &departing.route, &departing.stops, once));
         self.departing.push(Some(departing));
     }
 
@@ -151,8 +148,14 @@ impl Schedule {
         last.line = line.into();
         let Flow { route, stops, per_hour, from, until, .. } = &last.flow;
         let (first, headway, until, number) = (*from, 3600.0 / per_hour, *until, last.beat.number);
-        if let Some(service) = service(&last.line, route, stops, Departures { first, headway, until, number })
-        {
+        let departures = Departures { first, headway, until, number };
+        let service = service(&last.line, route, stops, departures);
+        self.offer(service);
+    }
+
+    /// Takes note of a service, for those who look for a way by it.
+    fn offer(&mut self, service: Option<Service>) {
+        if let Some(service) = service {
             self.services.push(service);
             self.timetable = None;
         }
