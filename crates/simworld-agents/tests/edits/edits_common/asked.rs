@@ -115,9 +115,20 @@ pub(crate) fn asked_elsewhere(city: &str) -> Vec<Asked> {
     lines.map(|[family, words, meaning]| Asked { set: "elsewhere", family, words, meaning }).collect()
 }
 
+/// Where our own sentences are: those of the beginning, and those that came later.
+const OWN: [&str; 2] = ["own.edits", "own.later.edits"];
+
 /// What is asked in a city by ourselves, of which all is to be right.
 pub(crate) fn taught_in(city: &str) -> Vec<Asked> {
-    ["own.edits", "own.later.edits"].into_iter().flat_map(|set| asked_in_set(city, set)).collect()
+    OWN.into_iter().flat_map(|set| asked_in_set(city, set)).collect()
+}
+
+/// As [`taught_in`]; of those of the beginning a sample alone, unless `SIMWORLD_SOAK` asks for the whole.
+pub(crate) fn sampled_of_taught_in(city: &str) -> Vec<Asked> {
+    let is_whole = is_whole();
+    let asked = taught_in(city).into_iter().enumerate();
+    let taken = asked.filter(|(index, asked)| is_whole || index % SAMPLED == 0 || asked.set != OWN[0]);
+    taken.map(|(_, asked)| asked).collect()
 }
 
 fn asked_in_set(city: &str, set: &'static str) -> Vec<Asked> {

@@ -16,7 +16,9 @@ use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::traffic::RoadLeg;
 
-pub(crate) use asked::{Asked, CITIES, asked_elsewhere, is_whole, newest_in, sampled_in, taught_in};
+pub(crate) use asked::{
+    Asked, CITIES, asked_elsewhere, is_whole, newest_in, sampled_in, sampled_of_taught_in, taught_in,
+};
 pub(crate) use kin::come_to;
 
 use crate::city::City;
