@@ -6,6 +6,7 @@
 //! cargo run --release --example city_figures
 //! ```
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -15,7 +16,9 @@ use std::time::Instant;
 use clap::{Parser, ValueEnum};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
+use simworld_citygen::block::Block;
 use simworld_citygen::building;
+use simworld_citygen::edit::{CityEdit, CityEditor};
 use simworld_citygen::element::{self, Setting};
 use simworld_citygen::growth;
 use simworld_citygen::lot::Land;
@@ -25,7 +28,7 @@ use simworld_citygen::tile::{TileConfig, TileId, TileSource};
 use simworld_citygen::zoning::Zoning;
 use simworld_citygen::{AllThreads, City, CityConfig, Style};
 use simworld_core::hash::{StateDigest, StateHasher};
-use simworld_core::id::WaypointId;
+use simworld_core::id::{RoadId, WaypointId};
 use simworld_core::net::{
     HierarchyScratch, NetworkConfig, RoadNetwork, Route, RouteHierarchy, StreetPlan, WaypointConfig,
     WaypointGraph,
@@ -53,6 +56,9 @@ struct Arguments {
     fields: bool,
 }
 
+/// So many streets of a kind are taken away, one after the other.
+const EDITS: usize = 25;
+
 /// Rows that are measured in one process.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Group {
@@ -66,6 +72,8 @@ enum Group {
     Place,
     /// Two threads against one.
     Threads,
+    /// Streets taken out of a city and put back, on one core.
+    Edits,
 }
 
 /// What was measured, each beside its bar.
@@ -118,6 +126,7 @@ fn measure(group: Group, arguments: &Arguments, rows: &mut Rows) -> Outcome<()> 
         Group::Stages => one.install(|| stages(arguments, rows)),
         Group::Place => one.install(|| place(arguments, rows)),
         Group::Threads => threads(arguments, rows),
+        Group::Edits => one.install(|| edits(arguments, rows)),
     }
 }
 
@@ -252,6 +261,40 @@ fn tiles(rows: &mut Rows) -> Outcome<()> {
     made?;
     let each = format!("{:.1} ms", time / ids.len() as f64 * 1e3);
     rows.add_row([format!("a tile of {:.2} km², complete", side * side), each, "5 ms".to_owned()]);
+    Ok(())
+}
+
+/// Streets that are taken out of cities of two sizes and put back: within them, and at the open land around them.
+fn edits(arguments: &Arguments, rows: &mut Rows) -> Outcome<()> {
+    for streets in [arguments.streets / 1000, arguments.streets / 33] {
+        let city = City::generate(&config(arguments, streets), Seed(3))?;
+        let roads = city.network.roads.len();
+        let open: BTreeSet<usize> = Block::of_network(&city.network)
+            .iter()
+            .filter(|block| block.area.is_none())
+            .flat_map(|block| block.borders.iter().filter_map(|border| border.as_street()))
+            .map(|(road, _)| road.index())
+            .collect();
+        let mut editor = CityEditor::new(city);
+        for (is_open, place) in [(false, "within"), (true, "at the edge of")] {
+            let like_it =
+                (0..roads).map(|step| step * 7919 % roads).filter(|road| open.contains(road) == is_open);
+            let mut times = Vec::new();
+            for road in like_it.take(EDITS) {
+                let remove = CityEdit::RemoveStreet(RoadId::from_index(road));
+                let (undo, time) = timed(|| editor.apply(&remove));
+                // Some would leave a piece of a street too short to be one.
+                if let Ok(undo) = undo {
+                    times.push(time);
+                    editor.put(undo)?;
+                }
+            }
+            times.sort_by(f64::total_cmp);
+            let median = times.get(times.len() / 2).map_or(f64::NAN, |time| time * 1e3);
+            let what = format!("a street {place} {roads} taken away, median of {}", times.len());
+            rows.add_row([what, format!("{median:.1} ms"), "-".to_owned()]);
+        }
+    }
     Ok(())
 }
 

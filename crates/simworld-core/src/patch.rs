@@ -78,6 +78,27 @@ impl<T> ArrayPatch<T> {
     }
 }
 
+impl<T> ArrayPatch<T> {
+    /// The patch that takes back two changes at once: this one takes back the first of them, `last` the second.
+    ///
+    /// ```
+    /// use simworld_core::patch::ArrayPatch;
+    /// let mut array = vec!['a', 'b', 'c'];
+    /// let first = ArrayPatch { len: 2, set: vec![(0, 'y')] }.put_on(&mut array, "letters")?;
+    /// let last = ArrayPatch { len: 3, set: vec![(1, 'z'), (2, 'x')] }.put_on(&mut array, "letters")?;
+    /// assert_eq!(array, ['y', 'z', 'x']);
+    /// first.after(last).put_on(&mut array, "letters")?;
+    /// assert_eq!(array, ['a', 'b', 'c']);
+    /// # Ok::<(), simworld_core::patch::Misfit>(())
+    /// ```
+    #[must_use]
+    pub fn after(self, last: Self) -> Self {
+        let mut set: BTreeMap<u32, T> = last.set.into_iter().filter(|(index, _)| *index < self.len).collect();
+        set.extend(self.set);
+        Self { len: self.len, set: set.into_iter().collect() }
+    }
+}
+
 impl<T: Clone> ArrayPatch<T> {
     /// An entry of an array that changes once more after the change that this patch takes back: then the patch takes back
     /// both. `None` if there is no such entry.

@@ -79,16 +79,30 @@ impl Names {
     }
 }
 
-/// A name for a place by itself, which nobody has: the first of an order that chance begins; `None` for places that bear no
-/// name.
+/// A name for a place by itself, which nobody has: the first of some in an order that chance begins, or else the first of
+/// them with a number; `None` for places that bear no name.
 pub(super) fn free(place: Place, rng: &mut StreamRng, is_taken: impl Fn(&str) -> bool) -> Option<String> {
     let nouns = noun(place)?;
     let combinations = EPITHETS.len() * nouns.len();
     let start = rng.below(combinations);
-    (0..).find_map(|step: usize| {
-        let index = (start + step * STEP) % combinations;
-        let name = spelled(nouns, index, step / combinations);
-        (!is_taken(&name)).then_some(name)
+    let plain = |step: usize| spelled(nouns, (start + step * STEP) % combinations, 0);
+    let plain = (0..TRIED.min(combinations)).map(plain).find(|name| !is_taken(name));
+    plain.or_else(|| {
+        // A large city has given out thousands of numbers: by doubling, and then by halves, a free one is soon found.
+        let numbered = |round: usize| spelled(nouns, start, round);
+        let (mut taken, mut free) = (0, 1);
+        while is_taken(&numbered(free)) {
+            (taken, free) = (free, 2 * free);
+        }
+        while free - taken > 1 {
+            let middle = taken.midpoint(free);
+            if is_taken(&numbered(middle)) {
+                taken = middle;
+            } else {
+                free = middle;
+            }
+        }
+        Some(numbered(free))
     })
 }
 
@@ -115,6 +129,8 @@ fn push_number(text: &mut String, number: usize) {
     text.push(char::from(b'0' + (number % 10) as u8));
 }
 
+/// So many names without a number are looked at before one gets a number.
+const TRIED: usize = 30;
 /// Step from one name to the next; a prime greater than any number of words.
 const STEP: usize = 97;
 
@@ -137,5 +153,25 @@ mod tests {
             }
         }
         assert!(seen.len() >= 8000);
+    }
+
+    #[test]
+    fn a_free_name_is_found_soon_however_many_are_taken() {
+        let rng = || Seed(3).stream("names").rng();
+        let mut names = Names::new(&mut rng());
+        let mut taken = BTreeSet::new();
+        for count in [0, 1_000, 100_000] {
+            while taken.len() < count {
+                taken.extend(names.next(Place::Restaurant));
+            }
+            let looked = std::cell::Cell::new(0);
+            let name = free(Place::Restaurant, &mut rng(), |name| {
+                looked.set(looked.get() + 1);
+                taken.contains(name)
+            });
+            let name = name.expect("restaurants bear names");
+            assert!(!taken.contains(&name), "{name} is taken");
+            assert!(looked.get() <= TRIED + 24, "looked at {} of {count}", looked.get());
+        }
     }
 }

@@ -45,10 +45,13 @@ impl Cells {
 
     /// The numbers of what may touch a rectangle.
     pub(super) fn near(&self, bounds: Bounds) -> BTreeSet<usize> {
-        Self::touched(bounds)
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .map(|number| *number as usize)
-            .collect()
+        self.near_any([bounds])
+    }
+
+    /// The numbers of what may touch one of some rectangles.
+    pub(super) fn near_any(&self, bounds: impl IntoIterator<Item = Bounds>) -> BTreeSet<usize> {
+        let touched: BTreeSet<(i32, i32)> = bounds.into_iter().flat_map(Self::touched).collect();
+        let numbers = touched.iter().filter_map(|cell| self.cells.get(cell)).flatten();
+        numbers.map(|number| *number as usize).collect()
     }
 }

@@ -53,8 +53,8 @@ impl<'a> Faces<'a> {
     pub(super) fn of(city: &'a City, near: &Cells, sides: &'a BTreeSet<usize>) -> Result<Self, EditError> {
         let own: BTreeSet<usize> = sides.iter().map(|side| side / 2).collect();
         let beside = |road: &usize| bounds(&city.network.roads[*road].centerline);
-        let mut streets: BTreeSet<usize> =
-            own.iter().filter_map(beside).flat_map(|bounds| near.near(inflated(bounds, NEAR))).collect();
+        let around = own.iter().filter_map(beside).map(|bounds| inflated(bounds, NEAR));
+        let mut streets = near.near_any(around);
         // How far a junction reaches into a street depends on the streets at the other end.
         streets.extend(with_neighbours(&city.network, with_neighbours(&city.network, own)));
         let part = city.plan.part(streets);

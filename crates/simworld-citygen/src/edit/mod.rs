@@ -15,6 +15,7 @@ mod error;
 mod faces;
 mod in_world;
 mod index;
+mod moved;
 mod patch;
 mod reach;
 mod replace;

@@ -89,6 +89,17 @@ pub struct CityPatch {
 }
 
 impl CityPatch {
+    /// The patch that changes nothing of a city.
+    pub(super) fn unchanged(city: &City) -> Self {
+        Self {
+            plan: PlanPatch::unchanged(&city.plan),
+            network: NetworkPatch::unchanged(&city.network),
+            buildings: ArrayPatch::unchanged(&city.buildings),
+            elements: ArrayPatch::unchanged(&city.elements),
+            frontage: city.frontage,
+        }
+    }
+
     /// Puts the patch on a city; gives the patch that takes it off again.
     ///
     /// # Errors

@@ -17,10 +17,6 @@ impl CityEditor {
         before: &Before,
         after: After,
     ) -> (ArrayPatch<Building>, ArrayPatch<Element>) {
-        let (old_buildings, old_elements): (Vec<usize>, Vec<usize>) = (
-            self.generated_buildings(&before.sides).collect(),
-            self.generated_elements(&before.sides).collect(),
-        );
         let seed = self.city.provenance.seed;
         let names = &mut self.index.names;
         let mut buildings = Book::open(&mut self.city.buildings);
@@ -29,7 +25,7 @@ impl CityEditor {
         }
         let buildings = replaced(
             buildings,
-            &Replacement { old: &old_buildings, gone: &after.buildings_gone },
+            &Replacement { old: &before.buildings, gone: &after.buildings_gone },
             after.buildings,
             Rules {
                 key: |building: &Building| place_key(building.center),
@@ -47,7 +43,7 @@ impl CityEditor {
         let elements = Book::open(&mut self.city.elements);
         let elements = replaced(
             elements,
-            &Replacement { old: &old_elements, gone: &after.elements_gone },
+            &Replacement { old: &before.elements, gone: &after.elements_gone },
             after.elements,
             Rules {
                 key: |element: &Element| (place_key(element.position), element.kind),

@@ -8,12 +8,15 @@ use simworld_core::net::{NetworkPatch, RoadNetwork};
 use super::EditError;
 use super::cells::{Cells, inflated};
 use super::faces::NEAR;
+use super::moved::Moved;
 use crate::block::sides_round;
 
 /// The roads that a change of streets touches.
 pub(super) struct Changed<'a> {
     /// Those that changed, by their numbers before and after it.
     pub(super) roads: [&'a BTreeSet<usize>; 2],
+    /// Those that only got another number.
+    pub(super) moved: &'a Moved,
     /// Where the roads were before it.
     pub(super) near: &'a Cells,
 }
@@ -42,11 +45,12 @@ pub(super) fn both_faces(
 }
 
 impl Changed<'_> {
-    /// The sides round the faces that the changed roads bound, by their numbers of one time, and those sides of the other time that are as
-    /// they were.
+    /// The sides round the faces that the changed roads bound, by their numbers of one time, and those sides of the other time, by its numbers,
+    /// that are as they were.
     fn faces(&self, network: &RoadNetwork, time: usize, other: &BTreeSet<usize>) -> BTreeSet<usize> {
-        let as_it_was = |side: &usize| self.roads.iter().all(|roads| !roads.contains(&(side / 2)));
-        let start = both_sides(self.roads[time]).chain(other.iter().copied().filter(as_it_was));
+        let as_it_was = |side: &&usize| !self.roads[1 - time].contains(&(**side / 2));
+        let here = |side: &usize| 2 * self.moved.number_at(time, side / 2) + side % 2;
+        let start = both_sides(self.roads[time]).chain(other.iter().filter(as_it_was).map(here));
         let mut sides = sides_round(network, start);
         loop {
             let strangers = self.strangers(network, time, &sides);
@@ -62,13 +66,12 @@ impl Changed<'_> {
     /// beside one another; the open land round a piece that is cut off overlaps that of others, and who builds there first has it.
     fn strangers(&self, network: &RoadNetwork, time: usize, sides: &BTreeSet<usize>) -> BTreeSet<usize> {
         let own: BTreeSet<usize> = sides.iter().map(|side| side / 2).collect();
-        let is_as_it_was = |road: &usize| self.roads.iter().all(|roads| !roads.contains(road));
-        let near = |road: &usize| {
-            let around = bounds(&network.roads[*road].centerline);
-            around.into_iter().flat_map(|around| self.near.near(inflated(around, NEAR))).filter(is_as_it_was)
-        };
-        let all: BTreeSet<usize> =
-            own.iter().flat_map(near).chain(self.roads[time].iter().copied()).collect();
+        let around =
+            |road: &usize| bounds(&network.roads[*road].centerline).map(|around| inflated(around, NEAR));
+        let is_as_it_was = |once: &usize| !self.roads[0].contains(once);
+        let here = |once: usize| if time == 0 { once } else { self.moved.number_at(1, once) };
+        let near = self.near.near_any(own.iter().filter_map(around)).into_iter().filter(is_as_it_was);
+        let all: BTreeSet<usize> = near.map(here).chain(self.roads[time].iter().copied()).collect();
         let pieces = Pieces::of(network, own.iter().chain(&all));
         if pieces.count == 1 {
             return BTreeSet::new();
@@ -76,7 +79,9 @@ impl Changed<'_> {
         let piece = &pieces.by_road;
         let others = |road: &usize| {
             let own = piece[road];
-            near(road).filter(move |other| piece[other] != own).collect::<Vec<usize>>()
+            let near = around(road).into_iter().flat_map(|around| self.near.near(around));
+            let near = near.filter(is_as_it_was).map(here);
+            near.filter(move |other| piece[other] != own).collect::<Vec<usize>>()
         };
         let is_new = |road: &usize| [2 * road, 2 * road + 1].iter().any(|side| !sides.contains(side));
         own.iter().flat_map(others).filter(is_new).collect()

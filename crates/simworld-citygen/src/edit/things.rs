@@ -3,12 +3,11 @@
 use std::collections::BTreeSet;
 
 use simworld_core::geometry::{Point2, bounds};
-use simworld_core::net::NetworkPatch;
 use simworld_core::ops::wrap_angle;
 use simworld_core::patch::{ArrayPatch, Book};
 
 use super::cells::{Bounds, inflated};
-use super::{CityEditor, CityPatch, EditError, PlanPatch, missing};
+use super::{CityEditor, CityPatch, EditError, missing};
 use crate::block::Border;
 use crate::building::Building;
 use crate::doors::FARTHEST_DOOR;
@@ -194,12 +193,11 @@ impl CityEditor {
         elements_out: &[usize],
         elements_in: Vec<Element>,
     ) -> CityPatch {
+        let nothing = CityPatch::unchanged(&self.city);
         let patch = CityPatch {
-            plan: PlanPatch::unchanged(&self.city.plan),
-            network: NetworkPatch::unchanged(&self.city.network),
             buildings: exchanged(&mut self.city.buildings, buildings_out, buildings_in),
             elements: exchanged(&mut self.city.elements, elements_out, elements_in),
-            frontage: self.city.frontage,
+            ..nothing
         };
         self.index.follow(&self.city, &patch);
         patch

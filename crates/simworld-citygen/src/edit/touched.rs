@@ -3,12 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::geometry::{Point2, bounds};
-use simworld_core::id::{LaneId, SidewalkId};
-use simworld_core::net::{NetworkPatch, Road, RoadNetwork};
-use simworld_core::patch::ArrayPatch;
 
 use super::cells::inflated;
 use super::faces::{Faces, Given, place_key, side_number};
+use super::moved::Altered;
 use super::patch::CityPatch;
 use super::sides::{Changed, both_faces};
 use super::streets::StreetsChanged;
@@ -23,10 +21,11 @@ const GIVEN_NEAR: f64 = 100.0;
 
 /// What stood round the streets before they changed.
 pub(super) struct Before {
-    /// The roads that were changed, or have another number.
-    roads: BTreeSet<usize>,
-    /// All sides round their faces.
-    pub(super) sides: BTreeSet<usize>,
+    /// What was built and set along all sides round their faces.
+    pub(super) buildings: Vec<usize>,
+    pub(super) elements: Vec<usize>,
+    /// The given buildings at the roads that changed.
+    given: BTreeSet<usize>,
     frontage: f64,
     land: Occupancy,
 }
@@ -46,28 +45,18 @@ pub(super) struct After {
 impl CityEditor {
     /// Repairs what stands at streets that changed; gives the patch that takes all of it back.
     pub(super) fn follow_streets(&mut self, changed: StreetsChanged) -> Result<CityPatch, EditError> {
-        let forth = changed.network.mirrored(&self.city.network);
-        let is_other = |road: usize| !keeps_its_course(&changed.network, &self.city.network, road);
-        let roads_now = forth.roads.set.iter().map(|(road, _)| *road as usize);
-        let roads_now: BTreeSet<usize> = roads_now.filter(|road| is_other(*road)).collect();
-        let roads = changed.network.roads.set.iter().map(|(road, _)| *road as usize);
-        let roads: BTreeSet<usize> = roads.filter(|road| is_other(*road)).collect();
         let StreetsChanged { plan, network } = changed;
+        let Altered { roads: [roads, roads_now], moved } = self.altered(&network);
         // Back to the streets as they were, for a look at their faces.
         let plan = plan.put_on(&mut self.city.plan)?;
-        let changed = Changed { roads: [&roads, &roads_now], near: &self.index.roads };
+        let changed = Changed { roads: [&roads, &roads_now], moved: &moved, near: &self.index.roads };
         let (network, [sides, sides_now]) =
             both_faces(std::sync::Arc::make_mut(&mut self.city.network), network, &changed)?;
         let before = self.before(roads, sides);
         let plan = plan.put_on(&mut self.city.plan)?;
         let network = self.network_mut().put(network)?;
-        let mut patch = CityPatch {
-            plan,
-            network,
-            buildings: ArrayPatch::unchanged(&self.city.buildings),
-            elements: ArrayPatch::unchanged(&self.city.elements),
-            frontage: self.city.frontage,
-        };
+        let (buildings, elements) = self.renumber(&moved);
+        let mut patch = CityPatch { plan, network, buildings, elements, frontage: self.city.frontage };
         // Roads first, for they are looked for by place.
         self.index.follow(&self.city, &patch);
         let after = before.and_then(|before| Ok((self.after(&before, &roads_now, &sides_now)?, before)));
@@ -75,10 +64,10 @@ impl CityEditor {
             Ok((after, before)) => {
                 self.city.frontage += after.frontage - before.frontage;
                 let (buildings, elements) = self.replace(&before, after);
-                let roads = std::mem::replace(&mut patch.network, self.no_roads());
-                (patch.buildings, patch.elements) = (buildings, elements);
-                self.index.follow(&self.city, &patch);
-                patch.network = roads;
+                let last = CityPatch { buildings, elements, ..CityPatch::unchanged(&self.city) };
+                self.index.follow(&self.city, &last);
+                patch.buildings = patch.buildings.after(last.buildings);
+                patch.elements = patch.elements.after(last.elements);
                 Ok(patch)
             }
             Err(error) => {
@@ -88,14 +77,15 @@ impl CityEditor {
         }
     }
 
-    fn no_roads(&self) -> NetworkPatch {
-        NetworkPatch::unchanged(&self.city.network)
-    }
-
     fn before(&self, roads: BTreeSet<usize>, sides: BTreeSet<usize>) -> Result<Before, EditError> {
         let faces = Faces::of(&self.city, &self.index.roads, &sides)?;
-        let (frontage, land) = (faces.land.frontage, faces.land_of_roads(&roads));
-        Ok(Before { roads, sides, frontage, land })
+        Ok(Before {
+            buildings: self.generated_buildings(&sides).collect(),
+            elements: self.generated_elements(&sides).collect(),
+            given: self.given_at(&roads),
+            frontage: faces.land.frontage,
+            land: faces.land_of_roads(&roads),
+        })
     }
 
     /// Builds on the faces round the roads that changed.
@@ -123,7 +113,7 @@ impl CityEditor {
         after.elements_gone.extend(gone);
         let moved: BTreeMap<usize, &Building> =
             after.doors.iter().map(|(number, there)| (*number, there)).collect();
-        let round = self.given_round(sides, &before.roads);
+        let round = self.given_round(sides, &before.given);
         let round = round.iter().filter(|number| !after.buildings_gone.contains(number));
         let given = Given {
             buildings: round
@@ -131,9 +121,10 @@ impl CityEditor {
                 .collect(),
             elements: stay.into_iter().map(|number| &city.elements[number]).collect(),
         };
-        let uses: BTreeMap<[u64; 2], &Building> = self
-            .generated_buildings(&before.sides)
-            .map(|number| &city.buildings[number])
+        let uses: BTreeMap<[u64; 2], &Building> = before
+            .buildings
+            .iter()
+            .map(|number| &city.buildings[*number])
             .map(|building| (place_key(building.center), building))
             .collect();
         (after.buildings, after.elements) = faces.build(&given, &uses);
@@ -149,11 +140,11 @@ impl CityEditor {
         after: &mut After,
     ) {
         let courses = roads.iter().filter_map(|road| bounds(&self.city.network.roads[*road].centerline));
-        let mut near = self.given_at(&before.roads);
+        let mut near = before.given.clone();
         near.extend(courses.flat_map(|around| self.index.buildings_near(around)));
         for number in near.into_iter().filter(|number| self.city.buildings[*number].given) {
             let building = &self.city.buildings[number];
-            let is_lost = before.roads.contains(&building.road.index());
+            let is_lost = before.given.contains(&number);
             let door = if is_lost { self.with_door(building.clone()) } else { Some(building.clone()) };
             match door.filter(|building| has_room(&building.ground())) {
                 Some(there) if is_lost => after.doors.push((number, there)),
@@ -166,10 +157,7 @@ impl CityEditor {
     }
 
     /// The generated buildings on some sides of streets.
-    pub(super) fn generated_buildings<'a>(
-        &'a self,
-        sides: &'a BTreeSet<usize>,
-    ) -> impl Iterator<Item = usize> + 'a {
+    fn generated_buildings<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
         at_roads(sides).flat_map(|road| self.index.buildings_at(road)).map(|number| *number as usize).filter(
             |number| {
                 let building = &self.city.buildings[*number];
@@ -179,10 +167,7 @@ impl CityEditor {
     }
 
     /// The generated elements on some sides of streets.
-    pub(super) fn generated_elements<'a>(
-        &'a self,
-        sides: &'a BTreeSet<usize>,
-    ) -> impl Iterator<Item = usize> + 'a {
+    fn generated_elements<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
         at_roads(sides).flat_map(|road| self.index.elements_at(road)).map(|number| *number as usize).filter(
             |number| {
                 let along = self.city.elements[*number].along.as_street();
@@ -196,12 +181,12 @@ impl CityEditor {
         all.map(|number| *number as usize).filter(|number| self.city.buildings[*number].given).collect()
     }
 
-    /// The given buildings near enough to some faces to take room there, and those at roads whose numbers changed.
-    fn given_round(&self, sides: &BTreeSet<usize>, renumbered: &BTreeSet<usize>) -> BTreeSet<usize> {
+    /// The given buildings near enough to some faces to take room there, and those that lost their roads.
+    fn given_round(&self, sides: &BTreeSet<usize>, lost: &BTreeSet<usize>) -> BTreeSet<usize> {
         let courses = at_roads(sides).filter_map(|road| bounds(&self.city.network.roads[road].centerline));
         let near = courses.flat_map(|around| self.index.buildings_near(around));
         let given = near.filter(|number| self.city.buildings[*number].given);
-        given.chain(self.given_at(renumbered)).collect()
+        given.chain(lost.iter().copied()).collect()
     }
 
     /// A building with the door at the nearest sidewalk; `None` if there is none within reach.
@@ -214,28 +199,6 @@ impl CityEditor {
         (building.access, building.road, building.side) = (door.at, door.road, door.side);
         Some(building)
     }
-}
-
-/// Whether nothing of a road changed but the numbers of its lanes and sidewalks; `back` takes the change back.
-fn keeps_its_course(back: &NetworkPatch, network: &RoadNetwork, road: usize) -> bool {
-    fn old<T>(patch: &ArrayPatch<T>, index: usize) -> Option<&T> {
-        let rank = patch.set.binary_search_by_key(&(index as u32), |(number, _)| *number).ok()?;
-        Some(&patch.set[rank].1)
-    }
-    let (Some(before), Some(now)) = (old(&back.roads, road), network.roads.get(road)) else { return false };
-    let path = |walk: Option<SidewalkId>| walk.map(|walk| &network.sidewalks[walk.index()].path);
-    let old_path = |walk: Option<SidewalkId>| {
-        let walk = walk?.index();
-        old(&back.sidewalks, walk).or_else(|| network.sidewalks.get(walk)).map(|walk| &walk.path)
-    };
-    let same_walks = (0..2).all(|side| old_path(before.sidewalks[side]) == path(now.sidewalks[side]));
-    let lane = |lane: LaneId| network.lanes.get(lane.index()).map(|lane| &lane.path);
-    let old_lane = |id: LaneId| old(&back.lanes, id.index()).map(|lane| &lane.path).or_else(|| lane(id));
-    let same_lanes = before.lanes().count() == now.lanes().count()
-        && before.lanes().zip(now.lanes()).all(|(before, now)| old_lane(before) == lane(now));
-    // All else of the road, but for the numbers.
-    let Road { forward, backward, cycle, sidewalks, .. } = now.clone();
-    same_walks && same_lanes && Road { forward, backward, cycle, sidewalks, ..before.clone() } == *now
 }
 
 /// The roads of some sides, each once.

@@ -110,6 +110,12 @@ impl Setting<'_> {
     }
 }
 
+/// Whether something behind the sidewalks of a road would like to stand where something of another road would, so that it
+/// matters whose sidewalk comes first.
+pub(crate) fn is_contested(setting: &Setting<'_>, config: &ElementConfig, seed: Seed, road: RoadId) -> bool {
+    sidewalk::is_contested(setting, config, seed.stream("citygen/elements").named("sidewalks"), road)
+}
+
 /// Sets elements along every sidewalk, in parking lanes and on greens; `taken` holds the land of the roads and the
 /// buildings, and receives what stands beside them.
 pub fn furnish(

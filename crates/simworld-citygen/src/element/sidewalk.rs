@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
 use simworld_core::geometry::Point2;
-use simworld_core::id::SidewalkId;
+use simworld_core::id::{RoadId, SidewalkId};
 use simworld_core::lists::Lists;
 use simworld_core::net::{RoadClass, Side, Sidewalk};
 use simworld_core::scene::{EntityKind, Place, Shape};
@@ -104,6 +104,30 @@ pub(super) fn line(
             threads::take_over(elements, granted(wishes, taken), WISHES * sidewalks.len());
         }
     });
+}
+
+/// Whether what is wished for behind the sidewalks of a road is in the way of what is wished for behind those of others.
+pub(super) fn is_contested(
+    setting: &Setting<'_>,
+    config: &ElementConfig,
+    streams: Stream,
+    road: RoadId,
+) -> bool {
+    let doors = Doors::of(setting);
+    let zoning = &mut RememberedZoning::new(setting.zoning);
+    let mut wishes = [Setter::default(), Setter::default()];
+    for (index, sidewalk) in setting.network.sidewalks.iter().enumerate() {
+        if setting.has_side(sidewalk.road, sidewalk.side) {
+            let setter = &mut wishes[usize::from(sidewalk.road == road)];
+            setter.begin(sidewalk, doors.at(index), setting);
+            let zone = setter.zone(zoning);
+            setter.furnish(sidewalk, (setting, zone), config, stream_of(sidewalk, streams));
+        }
+    }
+    let [others, own] = wishes.map(|setter| setter.wishes.grounds);
+    let mut taken = Occupancy::with_capacity(others.len());
+    others.iter().for_each(|ground| taken.add(ground));
+    own.iter().any(|ground| !taken.is_free(ground))
 }
 
 /// Those of the elements wished for that need nothing or find room.

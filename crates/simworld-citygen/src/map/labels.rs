@@ -5,7 +5,7 @@ mod chains;
 use std::fmt;
 
 use chains::Chain;
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::scene::Place;
 
 use super::page::{Frame, Page, escaped, path_data};
@@ -15,6 +15,10 @@ use crate::building::Building;
 
 /// Mean width of a letter over its size.
 const LETTER: f64 = 0.53;
+/// Within so many sizes along a line its pieces turn by no more than an angle with this cosine, or letters would fall over one
+/// another on the inner side.
+const BEND_REACH: f64 = 2.0;
+const BEND_COSINE: f64 = 0.9;
 /// Most labels a sheet bears.
 const MOST_STREETS: usize = 140;
 const MOST_PLACES: usize = 36;
@@ -122,7 +126,7 @@ fn streets(f: &mut fmt::Formatter<'_>, page: &Page, city: &City, room: &mut Room
         let Some(name) = city.network.names.get(chain.name as usize) else { continue };
         let size = road_style(chain.class).lettering;
         let length = width_of(name, size) * 1.06;
-        let Some(line) = stretch(page, &chain, length) else { continue };
+        let Some(line) = stretch(page, &chain, length, size) else { continue };
         if room.take(page, &boxes_along(&line, size)) {
             let data = path_data(line.iter().copied());
             writeln!(
@@ -137,15 +141,15 @@ fn streets(f: &mut fmt::Formatter<'_>, page: &Page, city: &City, room: &mut Room
     writeln!(f, "</g>")
 }
 
-/// The middle of a chain, as long as a text needs, from left to right; `None` if it is too short or too bent.
-fn stretch(page: &Page, chain: &Chain, length: f64) -> Option<Vec<(f64, f64)>> {
+/// The middle of a chain, as long as a text of a size needs, from left to right; `None` if it is too short or too bent.
+fn stretch(page: &Page, chain: &Chain, length: f64, size: f64) -> Option<Vec<(f64, f64)>> {
     let whole = chain.length * page.scale;
     if whole < length {
         return None;
     }
     let (from, to) = ((whole - length) * 0.5 / page.scale, (whole + length) * 0.5 / page.scale);
     let part = simworld_core::net::polyline::slice(&chain.line, from, to);
-    if part.windows(3).any(|turn| is_sharp(turn[0], turn[1], turn[2])) {
+    if is_bent(&part, BEND_REACH * size / page.scale) {
         return None;
     }
     let mut line: Vec<(f64, f64)> = part.iter().map(|point| page.place(point)).collect();
@@ -172,11 +176,21 @@ fn extend(line: &mut [(f64, f64)], by: f64) {
     }
 }
 
-/// Whether letters would fall over one another at a bend.
-fn is_sharp(a: Point2, b: Point2, c: Point2) -> bool {
-    let (before, after) = (b - a, c - b);
-    let cosine = before.dot(&after) / (before.norm() * after.norm()).max(1e-12);
-    cosine < 0.9
+/// Whether a line turns too much for letters somewhere within a reach, m: at one point, or little by little.
+fn is_bent(line: &[Point2], reach: f64) -> bool {
+    let pieces: Vec<Vector2> = line.windows(2).map(|ends| ends[1] - ends[0]).collect();
+    let turns = |a: &Vector2, b: &Vector2| a.dot(b) < BEND_COSINE * a.norm() * b.norm();
+    pieces.iter().enumerate().any(|(index, piece)| {
+        let mut between = 0.0;
+        pieces[index + 1..]
+            .iter()
+            .take_while(|next| {
+                let is_within = between < reach;
+                between += next.norm();
+                is_within
+            })
+            .any(|next| turns(piece, next))
+    })
 }
 
 /// Squares along a line of text, about as high as the letters.
@@ -215,4 +229,30 @@ pub(super) fn flag(
         y - 1.2,
         escaped(label)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quarter of a circle of a radius, m, in as many pieces.
+    fn quarter(radius: f64, pieces: u32) -> Vec<Point2> {
+        let angle = |piece: u32| std::f64::consts::FRAC_PI_2 * f64::from(piece) / f64::from(pieces);
+        (0..=pieces)
+            .map(|piece| {
+                let (sine, cosine) = simworld_core::ops::sin_cos(angle(piece));
+                Point2::new(radius * cosine, radius * sine)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_tight_bend_is_one_however_finely_it_is_drawn() {
+        for pieces in [2, 3, 10, 100] {
+            assert!(is_bent(&quarter(20.0, pieces), 20.0), "{pieces} pieces");
+        }
+        assert!(!is_bent(&quarter(100.0, 10), 20.0), "a wide one bears letters");
+        assert!(!is_bent(&quarter(100.0, 100), 20.0));
+        assert!(!is_bent(&[Point2::origin(), Point2::new(50.0, 0.0), Point2::new(90.0, 5.0)], 20.0));
+    }
 }
