@@ -214,7 +214,10 @@ impl<'a> Growth<'a> {
     /// Proposes a segment from a random junction into one of its gaps.
     fn revive(&mut self) {
         let node = self.rng.below(self.fabric.node_count()) as u32;
-        let Some(present) = self.fabric.ways(node).next() else { return };
+        if self.fabric.degree(node) == 0 {
+            return;
+        }
+        let present = self.fabric.ways(node)[0];
         let quarter = self.rng.below(4) as f64 * FRAC_PI_2;
         let site = self.field.site(self.fabric.at(node));
         let towards = self.guided(&site, heading(&present) + quarter);
