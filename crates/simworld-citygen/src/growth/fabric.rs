@@ -253,6 +253,11 @@ impl Fabric {
         &near[..count]
     }
 
+    /// Gives back the memory of what questions about what is near need, once there are no more of them.
+    pub(super) fn forget_what_is_near(&mut self) {
+        self.cells = Cells::around(self.middle, 0.0, 1.0);
+    }
+
     /// Whether a test holds of the ends of every segment that stands and that a line may meet.
     pub(super) fn all_along(&self, a: Point2, b: Point2, test: impl Fn(Point2, Point2) -> bool) -> bool {
         self.cells.all_along(a, b, |index| {
