@@ -1,10 +1,10 @@
 //! Which segments lie in which squares of the land.
 //!
-//! The squares lie in rows, each with room for seven numbers in place, so that a question reads memory in order; what a
-//! square has no room for goes on in blocks behind the last square. Nothing is ever taken out: a number may be told of a
-//! square that its segment has left, so whoever asks looks at the segment.
+//! Eight by eight squares are a patch, and there are patches where streets came only: most of the land is empty still. Each
+//! square has room for seven numbers in place; what it has no room for goes on in blocks of their own. Nothing is ever
+//! taken out: a number may be told of a square that its segment has left, so whoever asks looks at the segment.
 
-use std::ops::RangeInclusive;
+use std::ops::Range;
 
 use simworld_core::geometry::Point2;
 use simworld_core::ops::{greater, lesser};
@@ -22,7 +22,7 @@ fn numbers(block: &Block) -> &[u32] {
     &block[..(block[ROOM] % NEXT) as usize]
 }
 
-/// The block that goes on from one, or 0 if none does: the first square goes on from no other.
+/// The block that goes on from one, or 0 if none does: the first block goes on from no other.
 fn next(block: &Block) -> usize {
     (block[ROOM] / NEXT) as usize
 }
@@ -54,26 +54,34 @@ impl Bounds {
     }
 }
 
-/// Squares of the land and what lies in them.
-#[derive(Clone, Debug)]
-pub(super) struct Cells {
+/// Where the squares of the land lie.
+#[derive(Clone, Copy, Debug)]
+struct Grid {
     low: Point2,
     cell: f64,
     per_metre: f64,
     columns: usize,
+}
+
+/// Squares of the land and what lies in them.
+#[derive(Clone, Debug)]
+pub(super) struct Cells {
+    grid: Grid,
+    /// Patches in a row of them.
+    patches_wide: usize,
+    /// The first block of each patch; where no street came yet, that of the first one, in which nothing is ever entered.
+    patches: Vec<u32>,
     blocks: Vec<Block>,
 }
 
-impl Cells {
-    /// Empty squares of `cell` m that cover `reach` m to all sides of a point.
-    pub(super) fn around(middle: Point2, reach: f64, cell: f64) -> Self {
-        let columns = (2.0 * reach / cell).ceil() as usize + 1;
-        let low = Point2::new(middle.x - reach, middle.y - reach);
-        // Zeros: the system hands out the pages of land where streets come, no others.
-        let blocks = vec![[0; ROOM + 1]; columns * columns];
-        Self { low, cell, per_metre: 1.0 / cell, columns, blocks }
-    }
+/// A patch is two to this power squares wide.
+const PATCH_BITS: usize = 3;
+/// Squares in a patch.
+const PATCH: usize = 1 << (2 * PATCH_BITS);
+/// No number.
+const EMPTY: Block = [0; ROOM + 1];
 
+impl Grid {
     fn column(&self, x: f64) -> usize {
         self.index(x - self.low.x)
     }
@@ -89,21 +97,9 @@ impl Cells {
     }
 
     /// The columns and rows that a box touches.
-    fn squares(&self, bounds: &Bounds) -> [RangeInclusive<usize>; 2] {
-        let columns = self.column(bounds.low.x)..=self.column(bounds.high.x);
-        [columns, self.row(bounds.low.y)..=self.row(bounds.high.y)]
-    }
-
-    fn visit_block<'a>(&'a self, mut block: &'a Block, visit: &mut impl FnMut(u32)) {
-        loop {
-            for number in numbers(block) {
-                visit(*number);
-            }
-            if next(block) == 0 {
-                return;
-            }
-            block = &self.blocks[next(block)];
-        }
+    fn squares(&self, bounds: &Bounds) -> [Range<usize>; 2] {
+        let columns = self.column(bounds.low.x)..self.column(bounds.high.x) + 1;
+        [columns, self.row(bounds.low.y)..self.row(bounds.high.y) + 1]
     }
 
     /// The columns that a line touches, row by row from its lower end: calls with the row and the first and last column
@@ -125,14 +121,60 @@ impl Cells {
             x = next;
         }
     }
+}
+
+impl Cells {
+    /// Empty squares of `cell` m that cover `reach` m to all sides of a point.
+    pub(super) fn around(middle: Point2, reach: f64, cell: f64) -> Self {
+        let columns = (2.0 * reach / cell).ceil() as usize + 1;
+        let low = Point2::new(middle.x - reach, middle.y - reach);
+        let patches_wide = (columns >> PATCH_BITS) + 1;
+        let patches = vec![0; patches_wide * patches_wide];
+        // Room for all: the system hands out the pages of those that are used, no others.
+        let mut blocks = Vec::with_capacity((patches.len() + 1) * PATCH);
+        blocks.resize(PATCH, EMPTY);
+        let grid = Grid { low, cell, per_metre: 1.0 / cell, columns };
+        Self { grid, patches_wide, patches, blocks }
+    }
+
+    /// The block of a square.
+    fn square(&self, row: usize, column: usize) -> &Block {
+        &self.blocks[self.patches[self.patch(row, column)] as usize + within_patch(row, column)]
+    }
+
+    /// The patch in which a square lies.
+    fn patch(&self, row: usize, column: usize) -> usize {
+        (row >> PATCH_BITS) * self.patches_wide + (column >> PATCH_BITS)
+    }
+
+    /// The number of the block of a square in which something is to be entered: its patch is made if there is none.
+    fn square_to_fill(&mut self, row: usize, column: usize) -> usize {
+        let patch = self.patch(row, column);
+        if self.patches[patch] == 0 {
+            self.patches[patch] = self.blocks.len() as u32;
+            self.blocks.resize(self.blocks.len() + PATCH, EMPTY);
+        }
+        self.patches[patch] as usize + within_patch(row, column)
+    }
+
+    fn visit_block<'a>(&'a self, mut block: &'a Block, visit: &mut impl FnMut(u32)) {
+        loop {
+            for number in numbers(block) {
+                visit(*number);
+            }
+            if next(block) == 0 {
+                return;
+            }
+            block = &self.blocks[next(block)];
+        }
+    }
 
     /// Whether a test holds of every number in the squares that a line touches; it may be asked of one more than once.
     pub(super) fn all_along(&self, a: Point2, b: Point2, mut test: impl FnMut(u32) -> bool) -> bool {
         let mut holds = true;
-        self.along(a, b, |row, first, last| {
-            let start = row * self.columns;
-            for block in &self.blocks[start + first..=start + last] {
-                self.visit_block(block, &mut |number| holds = holds && test(number));
+        self.grid.along(a, b, |row, first, last| {
+            for column in first..=last {
+                self.visit_block(self.square(row, column), &mut |number| holds = holds && test(number));
             }
             holds
         });
@@ -141,26 +183,34 @@ impl Cells {
 
     /// Enters a number in the squares that a line touches.
     pub(super) fn file(&mut self, number: u32, a: Point2, b: Point2) {
-        // The blocks are taken out, so that rows can be walked while they grow.
-        let mut blocks = std::mem::take(&mut self.blocks);
-        self.along(a, b, |row, first, last| {
-            let start = row * self.columns;
-            (start + first..=start + last).for_each(|cell| enter(&mut blocks, cell, number));
+        let grid = self.grid;
+        grid.along(a, b, |row, first, last| {
+            for column in first..=last {
+                let block = self.square_to_fill(row, column);
+                enter(&mut self.blocks, block, number);
+            }
             true
         });
-        self.blocks = blocks;
     }
 }
 
-/// The numbers that were an answer to a question.
+/// What questions about squares are answered in; kept from one to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
-    /// For numbers of the same lowest bits, the last one that was told, and the question it was an answer to.
-    told: Vec<u64>,
+    told: Box<[u64; TOLD]>,
     question: u32,
     /// What stands in the squares, as often as it does; behind it what was read along with it.
     found: Vec<u32>,
-    numbers: Vec<u32>,
+    /// The blocks in which squares go on; behind them what was written along with them.
+    more: Vec<usize>,
+}
+
+/// Which numbers were an answer to a question already.
+#[derive(Debug)]
+pub(super) struct Told<'a> {
+    /// For numbers of the same lowest bits, the last one that was told, and the question it was an answer to.
+    told: &'a mut [u64; TOLD],
+    question: u32,
 }
 
 /// A power of two, several times the numbers in one answer.
@@ -168,72 +218,79 @@ const TOLD: usize = 256;
 
 impl Default for Asked {
     fn default() -> Self {
-        Self { told: vec![0; TOLD], question: 0, found: Vec::new(), numbers: Vec::new() }
+        Self { told: Box::new([0; TOLD]), question: 0, found: Vec::new(), more: Vec::new() }
+    }
+}
+
+impl Told<'_> {
+    /// Whether a number was no answer yet; then it is one. One that shares its lowest bits with another may be new twice.
+    pub(super) fn is_new(&mut self, number: u32) -> bool {
+        let told = &mut self.told[number as usize % TOLD];
+        let tells = u64::from(self.question) << 32 | u64::from(number);
+        std::mem::replace(told, tells) != tells
     }
 }
 
 impl Asked {
-    /// The numbers in the squares that a box touches. One that shares its lowest bits with another may be told twice.
-    pub(super) fn ask(&mut self, cells: &Cells, bounds: &Bounds) -> &[u32] {
+    /// The numbers in the squares that a box touches, as often as they stand there, and what tells which are new.
+    pub(super) fn ask(&mut self, cells: &Cells, bounds: &Bounds) -> (&[u32], Told<'_>) {
         let found = self.find(cells, bounds);
-        if self.numbers.len() < found {
-            self.numbers.resize(found, 0);
-        }
         self.question = self.question.wrapping_add(1);
-        let question = u64::from(self.question) << 32;
-        let mut count = 0;
-        for number in &self.found[..found] {
-            // Whether it is new decides nothing but where the next one is written.
-            self.numbers[count] = *number;
-            let told = &mut self.told[*number as usize % TOLD];
-            let tells = question | u64::from(*number);
-            count += usize::from(*told != tells);
-            *told = tells;
-        }
-        &self.numbers[..count]
+        (&self.found[..found], Told { told: &mut self.told, question: self.question })
     }
 
     /// Puts together what stands in the squares that a box touches, and returns how much it is.
     fn find(&mut self, cells: &Cells, bounds: &Bounds) -> usize {
-        let [columns, rows] = cells.squares(bounds);
-        let (wide, high) = (columns.end() + 1 - columns.start(), rows.end() + 1 - rows.start());
-        if self.found.len() < (wide * high + 1) * ROOM {
-            self.found.resize((wide * high + 1) * ROOM, 0);
+        let [columns, rows] = cells.grid.squares(bounds);
+        let (wide, high) = (columns.len(), rows.len());
+        self.make_room((wide * high + 1) * ROOM);
+        if self.more.len() < wide * high {
+            self.more.resize(wide * high, 0);
         }
         // All squares are read before anything is decided by what is in them: no read waits for another.
-        let (mut count, mut more) = (0, 0);
-        for row in rows.clone() {
-            let start = row * cells.columns + columns.start();
-            for square in &cells.blocks[start..start + wide] {
-                self.found[count..count + ROOM].copy_from_slice(&square[..ROOM]);
-                count += numbers(square).len();
-                more |= next(square);
-            }
+        let (mut count, mut unfinished) = (0, 0);
+        // In one loop: how many rows and columns there are cannot be foretold.
+        let (mut row, mut column) = (rows.start, columns.start);
+        for _ in 0..wide * high {
+            let square = cells.square(row, column);
+            self.found[count..count + ROOM].copy_from_slice(&square[..ROOM]);
+            count += numbers(square).len();
+            self.more[unfinished] = next(square);
+            unfinished += usize::from(next(square) != 0);
+            column += 1;
+            let is_row_done = column == columns.end;
+            column = if is_row_done { columns.start } else { column };
+            row += usize::from(is_row_done);
         }
-        if more == 0 { count } else { self.find_more(cells, [columns, rows], count) }
-    }
-
-    /// Goes on with what the squares have no room for.
-    fn find_more(
-        &mut self,
-        cells: &Cells,
-        [columns, rows]: [RangeInclusive<usize>; 2],
-        mut count: usize,
-    ) -> usize {
-        for row in rows {
-            let row = row * cells.columns;
-            for square in &cells.blocks[row + columns.start()..=row + columns.end()] {
-                let mut block = square;
-                while next(block) != 0 {
-                    block = &cells.blocks[next(block)];
-                    self.found.truncate(count);
-                    self.found.extend_from_slice(numbers(block));
-                    count = self.found.len();
-                }
-            }
+        for place in 0..unfinished {
+            count = self.go_on(cells, self.more[place], count);
         }
         count
     }
+
+    /// Goes on with what a square has no room for, from a block on.
+    fn go_on(&mut self, cells: &Cells, mut block: usize, mut count: usize) -> usize {
+        while block != 0 {
+            self.make_room(count + ROOM);
+            let more = &cells.blocks[block];
+            self.found[count..count + ROOM].copy_from_slice(&more[..ROOM]);
+            count += numbers(more).len();
+            block = next(more);
+        }
+        count
+    }
+
+    fn make_room(&mut self, room: usize) {
+        if self.found.len() < room {
+            self.found.resize(room, 0);
+        }
+    }
+}
+
+/// Where a square stands within its patch.
+fn within_patch(row: usize, column: usize) -> usize {
+    const LAST: usize = (1 << PATCH_BITS) - 1;
+    (row & LAST) << PATCH_BITS | column & LAST
 }
 
 /// Lines are taken to be wider than they are by so much to both sides, m.
@@ -252,7 +309,7 @@ fn enter(blocks: &mut Vec<Block>, mut block: usize, number: u32) {
         }
         if next(this) == 0 {
             this[ROOM] += NEXT * new;
-            blocks.push([0; ROOM + 1]);
+            blocks.push(EMPTY);
         }
         block = next(&blocks[block]);
     }
@@ -279,7 +336,7 @@ mod tests {
         for (number, (a, b)) in (0..).zip(&lines) {
             for share in 0..=50 {
                 let on = a + (b - a) * (f64::from(share) / 50.0);
-                let found = asked.ask(&cells, &Bounds::around(on, on, 0.0));
+                let (found, _) = asked.ask(&cells, &Bounds::around(on, on, 0.0));
                 assert!(found.contains(&number), "{number} at {on}");
             }
         }

@@ -20,19 +20,25 @@ impl Course {
 
     /// The share of it at which it crosses another segment; ends count. Parallels do not cross.
     pub(super) fn crossing(&self, a: Point2, b: Point2) -> Option<f64> {
-        let (along, between) = (b - a, a - self.start);
-        let det = self.along.perp(&along);
-        let (t, u) = (between.perp(&along), between.perp(&self.along));
-        // The shares are t / det and u / det: divided only if both lie from 0 to 1.
-        let (size, t, u) = if det < 0.0 { (-det, -t, -u) } else { (det, t, u) };
-        // All of it is reckoned and nothing decided before the end: most segments fail, each by another one of these.
-        let meets = [size >= 1e-12, t >= 0.0, t <= size, u >= 0.0, u <= size] == [true; 5];
-        meets.then(|| t / size)
+        let (crosses, t, size) = self.meets(a, b);
+        crosses.then(|| t / size)
     }
 
     /// Whether it crosses another segment.
     pub(super) fn crosses(&self, a: Point2, b: Point2) -> bool {
-        self.crossing(a, b).is_some()
+        self.meets(a, b).0
+    }
+
+    /// Whether it crosses another segment, and two numbers: if it does, it is at the share of the one in the other.
+    fn meets(&self, a: Point2, b: Point2) -> (bool, f64, f64) {
+        let (along, between) = (b - a, a - self.start);
+        let det = self.along.perp(&along);
+        // Both are shares times the determinant; by its sign they are turned.
+        let sign = 1.0_f64.copysign(det);
+        let (size, t, u) = (det.abs(), sign * between.perp(&along), sign * between.perp(&self.along));
+        // All of it is reckoned and nothing decided before the end: most segments fail, each by another one of these.
+        let crosses = all([size >= 1e-12, t >= 0.0, t <= size, u >= 0.0, u <= size]);
+        (crosses, t, size)
     }
 
     /// The square of the distance to a point, m².
@@ -55,6 +61,23 @@ impl Course {
             && (nearest(a, b, self.end) - self.end).norm_squared() >= least
             && !self.crosses(a, b)
     }
+}
+
+/// Whether the square of the distance of a point to a segment may be as little as `least`, m²: nothing that is so near is
+/// denied, and next to nothing else is affirmed.
+pub(super) fn may_be_near(a: Point2, b: Point2, point: Point2, least: f64) -> bool {
+    // Far above rounding.
+    let least = least * (1.0 + 1e-6);
+    let (along, from) = (b - a, point - a);
+    let (square, share, aside) = (along.norm_squared(), from.dot(&along), from.perp(&along));
+    let is_beside = all([share >= 0.0, share <= square, aside * aside <= least * square]);
+    let [is_near_a, is_near_b] = [from, point - b].map(|way| way.norm_squared() <= least);
+    is_beside | is_near_a | is_near_b
+}
+
+/// Whether all are true, for which all are asked: none of them can be foretold.
+pub(super) fn all<const COUNT: usize>(answers: [bool; COUNT]) -> bool {
+    answers.into_iter().fold(true, |all, one| all & one)
 }
 
 /// The point of a segment that is nearest to another point.

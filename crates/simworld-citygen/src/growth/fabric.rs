@@ -28,6 +28,20 @@ pub(super) struct Segment {
     stands: bool,
 }
 
+/// What is read where there is no street.
+const NOWHERE: Segment = Segment {
+    a: Point2::new(0.0, 0.0),
+    b: Point2::new(0.0, 0.0),
+    along: Vector2::new(0.0, 0.0),
+    from: NONE,
+    to: NONE,
+    class: RoadClass::Local,
+    stands: false,
+};
+
+/// The directions in which streets leave a place, as unit vectors, and zeros where there are no more.
+pub(super) type Ways = [Vector2; MOST_STREETS];
+
 /// A segment that stands near a place that was asked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Near {
@@ -158,10 +172,11 @@ impl Fabric {
         &node.streets[..usize::from(node.count)]
     }
 
-    /// The directions in which streets leave a node.
-    pub(super) fn ways(&self, node: u32) -> impl Iterator<Item = Vector2> {
-        self.streets(node).iter().map(move |segment| {
-            let segment = &self.segments[*segment as usize];
+    /// The directions in which streets leave a node; behind the last one nothing.
+    pub(super) fn ways(&self, node: u32) -> Ways {
+        // All places are read, taken or not: how many streets there are cannot be foretold.
+        self.nodes[node as usize].streets.map(|street| {
+            let segment = self.segments.get(street as usize).unwrap_or(&NOWHERE);
             if segment.from == node { segment.along } else { -segment.along }
         })
     }
@@ -185,14 +200,18 @@ impl Fabric {
         }
     }
 
-    /// The directions in which streets leave a place.
-    pub(super) fn ways_from(&self, start: Start) -> impl Iterator<Item = Vector2> {
-        let (node, along) = match start {
-            Start::Node(node) => (Some(node), None),
-            Start::Middle(segment) => (None, Some(self.segments[segment as usize].along)),
-        };
-        let at_node = node.into_iter().flat_map(|node| self.ways(node));
-        at_node.chain(along.into_iter().flat_map(|along| [along, -along]))
+    /// The directions in which streets leave a place; behind the last one nothing.
+    pub(super) fn ways_from(&self, start: Start) -> Ways {
+        match start {
+            Start::Node(node) => self.ways(node),
+            Start::Middle(segment) => self.ways_along(segment),
+        }
+    }
+
+    /// The directions in which a segment is left from between its ends; behind them nothing.
+    pub(super) fn ways_along(&self, segment: u32) -> Ways {
+        let along = self.segment(segment).along;
+        [along, -along, Vector2::zeros(), Vector2::zeros()]
     }
 
     /// Length of a segment, m.
@@ -220,7 +239,7 @@ impl Fabric {
     /// Every segment that stands and whose box touches another one; seldom one is told twice.
     pub(super) fn gather<'a>(&self, bounds: &Bounds, scratch: &'a mut Scratch) -> &'a [Near] {
         let Scratch { asked, near } = scratch;
-        let numbers = asked.ask(&self.cells, bounds);
+        let (numbers, mut told) = asked.ask(&self.cells, bounds);
         if near.len() < numbers.len() {
             near.resize(numbers.len(), Near::default());
         }
@@ -229,9 +248,14 @@ impl Fabric {
         for index in numbers {
             let Segment { a, b, from, to, stands, .. } = self.segments[*index as usize];
             near[count] = Near { a, b, index: *index, from, to };
-            count += usize::from(stands & bounds.touches(a, b));
+            count += usize::from(told.is_new(*index) & stands & bounds.touches(a, b));
         }
         &near[..count]
+    }
+
+    /// Gives back the memory of what questions about what is near need, once there are no more of them.
+    pub(super) fn forget_what_is_near(&mut self) {
+        self.cells = Cells::around(self.middle, 0.0, 1.0);
     }
 
     /// Whether a test holds of the ends of every segment that stands and that a line may meet.
@@ -302,6 +326,7 @@ impl Fabric {
         let count = usize::from(node.count);
         if let Some(place) = node.streets[..count].iter().position(|own| *own == segment) {
             node.streets.copy_within(place + 1..count, place);
+            node.streets[count - 1] = NONE;
             node.count -= 1;
         }
     }

@@ -19,7 +19,7 @@ impl Growth<'_> {
             if self.fabric.degree(node) != 1 {
                 continue;
             }
-            let Some(back) = self.fabric.ways(node).next() else { continue };
+            let back = self.fabric.ways(node)[0];
             for turn in TURNS {
                 let (sin, cos) = simworld_core::ops::sin_cos(turn);
                 let ahead = -back;

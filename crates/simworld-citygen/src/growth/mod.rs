@@ -214,7 +214,10 @@ impl<'a> Growth<'a> {
     /// Proposes a segment from a random junction into one of its gaps.
     fn revive(&mut self) {
         let node = self.rng.below(self.fabric.node_count()) as u32;
-        let Some(present) = self.fabric.ways(node).next() else { return };
+        if self.fabric.degree(node) == 0 {
+            return;
+        }
+        let present = self.fabric.ways(node)[0];
         let quarter = self.rng.below(4) as f64 * FRAC_PI_2;
         let site = self.field.site(self.fabric.at(node));
         let towards = self.guided(&site, heading(&present) + quarter);
@@ -276,19 +279,22 @@ impl<'a> Growth<'a> {
     }
 
     /// The grown streets as a plan, some of them bent between their ends.
-    fn plan(&self, seed: Seed) -> StreetPlan {
-        let (bends, curves) = (seed.stream("citygen/bends"), Curves::new());
-        let (mut plan, sections) = plan_of_sections(self.config);
+    fn plan(mut self, seed: Seed) -> StreetPlan {
+        let (bends, curves, config) = (seed.stream("citygen/bends"), Curves::new(), self.config);
+        let (mut plan, sections) = plan_of_sections(config);
+        // What is not asked any more is given back at once: what follows takes its memory, and the system has less to clear.
+        self.fabric.forget_what_is_near();
         let grown = self.numbered(&mut plan.nodes);
+        drop(self);
         let street = |grown: &Grown| {
             let Grown { index, ends, class } = *grown;
             let mut rng = bends.indexed(u64::from(index)).rng();
-            let bent = class != RoadClass::Highway && rng.chance(self.config.bends);
+            let bent = class != RoadClass::Highway && rng.chance(config.bends);
             let section = sections[class as usize];
             let reach = plan.sections[section as usize].left_of_reference();
             let [from, to] = ends.map(|end| end as usize);
             let straight = (class, plan.nodes[from], plan.nodes[to]);
-            let via = if bent { self.course(&curves, straight, reach, &mut rng) } else { Vec::new() };
+            let via = if bent { course(config, &curves, straight, reach, &mut rng) } else { Vec::new() };
             Street { via, class, section, ..Street::simple(from, to) }
         };
         // A street is a function of its segment, and many are much to write: all threads write them.
@@ -300,7 +306,8 @@ impl<'a> Growth<'a> {
 
     /// The segments that are streets still, in their order; numbers their nodes.
     fn numbered(&self, nodes: &mut Vec<Point2>) -> Vec<Grown> {
-        nodes.reserve(self.standing / 2);
+        // Some were taken away again: room for these costs nothing, and to move all to where there is more takes long.
+        nodes.reserve(self.fabric.node_count());
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
         let number = |index: u32| {
             let segment = self.fabric.segment(index);
@@ -316,19 +323,19 @@ impl<'a> Growth<'a> {
         };
         self.in_order().into_iter().map(number).collect()
     }
+}
 
-    /// A bent course of a street of a class from one place to another that reaches so far to its left.
-    fn course(
-        &self,
-        curves: &Curves,
-        (class, from, to): (RoadClass, Point2, Point2),
-        reach: f64,
-        rng: &mut StreamRng,
-    ) -> Vec<Point2> {
-        // So that its inner sidewalk is a bend still, not a knot, and vehicles come round it.
-        let radius = bend::least_radius(class).max(2.0 * reach);
-        bend::course(curves, from, to, self.config.bow, BOW_LIMIT * self.config.length, radius, rng)
-    }
+/// A bent course of a street of a class from one place to another that reaches so far to its left.
+fn course(
+    config: &RoadConfig,
+    curves: &Curves,
+    (class, from, to): (RoadClass, Point2, Point2),
+    reach: f64,
+    rng: &mut StreamRng,
+) -> Vec<Point2> {
+    // So that its inner sidewalk is a bend still, not a knot, and vehicles come round it.
+    let radius = bend::least_radius(class).max(2.0 * reach);
+    bend::course(curves, from, to, config.bow, BOW_LIMIT * config.length, radius, rng)
 }
 
 /// A grown segment that is to be a street, and the numbers of its nodes in the plan.

@@ -1,11 +1,13 @@
 //! A proposed segment, and the rules by which it is attached, cut or refused.
 
+use std::hint::select_unpredictable;
+
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::RoadClass;
 
 use super::cells::Bounds;
-use super::course::{Course, nearest};
-use super::fabric::{Fabric, Near, Scratch};
+use super::course::{Course, all, may_be_near, nearest};
+use super::fabric::{Fabric, Near, Scratch, Ways};
 use super::fitted::{Arrival, Fitted, Start};
 use crate::RoadConfig;
 
@@ -69,13 +71,14 @@ impl Fitter {
         }
         // Most that fail here would fail for certain: a street already goes that way.
         let limit = measures.cos_least_angle + 0.1;
-        if fabric.ways_from(proposal.from).any(|way| way.dot(&proposal.along) > limit) {
+        let ways = fabric.ways_from(proposal.from);
+        if !all_turn_from(&ways, proposal.along, limit) {
             return None;
         }
         // What decides where it arrives, and what it has to keep away from if that is on its way.
         let margin = measures.snap.max(measures.clearance);
         let near = fabric.gather(&Bounds::around(start, wanted, margin), &mut self.scratch);
-        let rules = Rules { fabric, measures, near, from: proposal.from, start };
+        let rules = Rules { fabric, measures, near, from: proposal.from, start, ways };
         let arrival = rules.arrival(wanted);
         let end = rules.end(arrival);
         if !rules.turns_well(arrival, end) || !rules.is_empty_beside(end, proposal.emptiness) {
@@ -87,10 +90,28 @@ impl Fitter {
             // It is led aside, to where nothing was looked at yet.
             let bounds = Bounds::around(start, end, measures.clearance);
             let near = fabric.gather(&bounds, &mut self.scratch);
-            Rules { fabric, measures, near, from: proposal.from, start }.is_clear(arrival, end)
+            Rules { fabric, measures, near, from: proposal.from, start, ways }.is_clear(arrival, end)
         };
         is_clear.then_some(Fitted { from: proposal.from, class: proposal.class, arrival })
     }
+}
+
+/// Whether a way turns away from all that are there by at least the angle of a cosine, which is above zero.
+fn all_turn_from(present: &Ways, new: Vector2, cos_least: f64) -> bool {
+    // All are reckoned and nothing decided before the end; what is no way is at right angles to all.
+    all(present.map(|way| way.dot(&new) <= cos_least))
+}
+
+/// The nearest node so far: the square of its distance by its bits, which are ordered as numbers are that are not
+/// negative, and its number.
+type Nearest = (u64, u32);
+
+/// The nearer one of a node and the nearest so far; of those as near, the one of the lesser number. One node does not count.
+fn nearer((least, best): Nearest, node: u32, at: Point2, from: Point2, not: u32) -> Nearest {
+    let distance = (from - at).norm_squared().to_bits();
+    let (is_nearer, is_tied) = (distance < least, all([distance == least, node < best]));
+    let is_nearer = all([node != not, is_nearer | is_tied]);
+    (select_unpredictable(is_nearer, distance, least), select_unpredictable(is_nearer, node, best))
 }
 
 struct Rules<'a> {
@@ -100,59 +121,74 @@ struct Rules<'a> {
     near: &'a [Near],
     from: Start,
     start: Point2,
+    /// The ways that leave there.
+    ways: Ways,
 }
 
 impl Rules<'_> {
-    /// Where a segment that wants to end there arrives.
+    /// Where a segment that wants to end there arrives: at the junction nearest to its end within the snap distance, else
+    /// on the first street that it would cross, else on the street nearest to its end within the snap distance.
     fn arrival(&self, wanted: Point2) -> Arrival {
-        self.junction_near(wanted)
-            .or_else(|| self.first_street_met(wanted))
-            .or_else(|| self.street_near(wanted))
-            .unwrap_or(Arrival::New(wanted))
-    }
-
-    /// The junction nearest to the wanted end within the snap distance.
-    fn junction_near(&self, wanted: Point2) -> Option<Arrival> {
-        let mut best = (self.measures.snap * self.measures.snap, u32::MAX);
-        for near in self.near {
-            for (node, at) in [(near.from, near.a), (near.to, near.b)] {
-                let distance = (at - wanted).norm_squared();
-                if distance <= best.0 && (distance, node) < best && Start::Node(node) != self.from {
-                    best = (distance, node);
-                }
-            }
+        let snap = self.measures.snap * self.measures.snap;
+        let course = Course::new(self.start, wanted);
+        let (from, _) = self.touched();
+        let (mut nearest, mut is_beside) = ((u64::MAX, u32::MAX), false);
+        // Where the first and the last one stand that it would cross.
+        let mut met = (usize::MAX, 0);
+        // One look at each, in which nothing is decided before the end: what is where cannot be foretold.
+        for (place, near) in self.near.iter().enumerate() {
+            nearest = nearer(nearest, near.from, near.a, wanted, from);
+            nearest = nearer(nearest, near.to, near.b, wanted, from);
+            let is_other = self.is_other(near);
+            let is_met = is_other & course.crosses(near.a, near.b);
+            met.1 = select_unpredictable(is_met, place, met.1);
+            met.0 = met.0.min(select_unpredictable(is_met, place, usize::MAX));
+            is_beside |= is_other & may_be_near(near.a, near.b, wanted, snap);
         }
-        (best.1 != u32::MAX).then_some(Arrival::Node(best.1))
+        if nearest.0 <= snap.to_bits() {
+            return Arrival::Node(nearest.1);
+        }
+        if let Some(met) = self.near.get(met.0..=met.1) {
+            return self.first_street_met(met, wanted);
+        }
+        let street = if is_beside { self.street_near(wanted) } else { None };
+        street.unwrap_or(Arrival::New(wanted))
     }
 
-    /// The near segments that do not touch the start.
-    fn others(&self) -> impl Iterator<Item = &Near> {
-        let (node, street) = match self.from {
+    /// The node and the street that it begins at: one of them is none.
+    fn touched(&self) -> (u32, u32) {
+        match self.from {
             Start::Node(node) => (node, u32::MAX),
             Start::Middle(street) => (u32::MAX, street),
-        };
-        self.near.iter().filter(move |near| near.from != node && near.to != node && near.index != street)
+        }
     }
 
-    /// The first street that the segment would cross.
-    fn first_street_met(&self, wanted: Point2) -> Option<Arrival> {
+    /// Whether a segment does not touch the start.
+    fn is_other(&self, near: &Near) -> bool {
+        let (from, beginning) = self.touched();
+        all([near.from != from, near.to != from, near.index != beginning])
+    }
+
+    /// The first street that the segment would cross, of some that it may.
+    fn first_street_met(&self, met: &[Near], wanted: Point2) -> Arrival {
         let course = Course::new(self.start, wanted);
         let mut first = (f64::INFINITY, u32::MAX);
-        for near in self.others() {
+        for near in met.iter().filter(|near| self.is_other(near)) {
             if let Some(share) = course.crossing(near.a, near.b)
                 && (share, near.index) < first
             {
                 first = (share, near.index);
             }
         }
-        (first.1 != u32::MAX).then(|| self.on_street(first.1, self.start + (wanted - self.start) * first.0))
+        self.on_street(first.1, self.start + (wanted - self.start) * first.0)
     }
 
     /// The street nearest to the wanted end within the snap distance.
     fn street_near(&self, wanted: Point2) -> Option<Arrival> {
         let bounds = Bounds::around(wanted, wanted, self.measures.snap);
         let mut best = (self.measures.snap * self.measures.snap, u32::MAX, wanted);
-        for near in self.others().filter(|near| bounds.touches(near.a, near.b)) {
+        let may_be = |near: &&Near| self.is_other(near) & bounds.touches(near.a, near.b);
+        for near in self.near.iter().filter(may_be) {
             let on = nearest(near.a, near.b, wanted);
             let distance = (on - wanted).norm_squared();
             if (distance, near.index) < (best.0, best.1) {
@@ -183,7 +219,7 @@ impl Rules<'_> {
         }
         let along = (end - self.start) / length;
         self.stays_inside(arrival, along)
-            && self.angles_allow(self.fabric.ways_from(self.from), along)
+            && self.angles_allow(&self.ways, along)
             && self.arrival_allows(arrival, -along)
     }
 
@@ -226,17 +262,14 @@ impl Rules<'_> {
                 };
                 self.fabric.has_room(node)
                     && !is_joined
-                    && self.angles_allow(self.fabric.ways(node), arriving)
+                    && self.angles_allow(&self.fabric.ways(node), arriving)
             }
-            Arrival::Interior(index, _) => {
-                let along = self.fabric.segment(index).along;
-                self.angles_allow([along, -along].into_iter(), arriving)
-            }
+            Arrival::Interior(index, _) => self.angles_allow(&self.fabric.ways_along(index), arriving),
         }
     }
 
-    fn angles_allow(&self, mut present: impl Iterator<Item = Vector2>, new: Vector2) -> bool {
-        present.all(|way| way.dot(&new) <= self.measures.cos_least_angle)
+    fn angles_allow(&self, present: &Ways, new: Vector2) -> bool {
+        all_turn_from(present, new, self.measures.cos_least_angle)
     }
 
     /// Whether the segment keeps its distance from all streets that it does not join, and from all their ends.

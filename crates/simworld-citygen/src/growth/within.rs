@@ -15,7 +15,7 @@ use super::field::Field;
 use super::fitted::Start;
 use super::proposal::{Fitter, Measures};
 use super::queue::Queue;
-use super::{Growth, ROUNDS, plan_of_sections};
+use super::{Growth, ROUNDS, course, plan_of_sections};
 use crate::RoadConfig;
 
 /// Attempts to revive growth for each node of the wall where hardly anything grew; elsewhere what is left over stays open.
@@ -146,7 +146,7 @@ impl<'a> Growth<'a> {
             });
             let mut rng = bends.indexed(index as u64).rng();
             let via = if rng.chance(self.config.bends) {
-                self.course(curves, (segment.class, segment.a, segment.b), reach, &mut rng)
+                course(self.config, curves, (segment.class, segment.a, segment.b), reach, &mut rng)
             } else {
                 Vec::new()
             };
