@@ -116,7 +116,9 @@ fn part(ring: &Ring, (from, to): (usize, usize), ahead: &[(Point2, Border)]) -> 
     let count = if from <= to { to + 1 - from } else { ring.len() - from + to + 1 };
     // One more, for the end of the cut.
     let mut part = Ring::with_capacity(count + ahead.len() + 1);
-    ahead.iter().for_each(|(corner, border)| part.push(*corner, *border));
+    for (corner, border) in ahead {
+        part.push(*corner, *border);
+    }
     if from <= to {
         part.extend(ring, from..to + 1);
     } else {
