@@ -177,11 +177,11 @@ impl Obb {
     /// The four corners of the footprint seen from above, counter-clockwise; exact for upright boxes.
     #[inline]
     pub fn footprint(&self) -> [Point2; 4] {
-        let (hx, hy) = (self.half_extents.x, self.half_extents.y);
-        [(hx, hy), (-hx, hy), (-hx, -hy), (hx, -hy)].map(|(x, y)| {
-            let corner = self.pose * Point3::new(x, y, 0.0);
-            Point2::new(corner.x, corner.y)
-        })
+        let (half, center) = (self.half_extents, planar(&self.pose));
+        // What lies on the other side of the centre lies as far from it, to the bit.
+        let turned = |x: f64| (self.pose.rotation * Vector3::new(x, half.y, 0.0)).xy();
+        let [front, rear] = [turned(half.x), turned(-half.x)];
+        [center + front, center + rear, center - front, center - rear]
     }
 
     /// Whether the footprints of two upright boxes share interior points, by the separating-axis test.
@@ -237,6 +237,19 @@ mod tests {
             Obb { pose: pose_facing(Point3::origin(), FRAC_PI_4), half_extents: Vector3::new(1.0, 1.0, 2.0) };
         let reach = obb.aabb().half_extents();
         assert!((reach.x - 2f64.sqrt()).abs() < 1e-12 && (reach.z - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_footprint_is_where_the_pose_puts_its_corners() {
+        for step in 0..1000 {
+            let at = |by: f64| f64::from(step) * by;
+            let position = Point3::new(at(731.7), at(-0.37), 1.0);
+            let half_extents = Vector3::new(0.1 + at(0.013), 9.0 - at(0.007), 1.0);
+            let obb = Obb { pose: pose_facing(position, at(0.11) - 50.0), half_extents };
+            let (x, y) = (half_extents.x, half_extents.y);
+            let corner = |(x, y): (f64, f64)| (obb.pose * Point3::new(x, y, 0.0)).xy();
+            assert_eq!(obb.footprint(), [(x, y), (-x, y), (-x, -y), (x, -y)].map(corner));
+        }
     }
 
     #[test]

@@ -37,6 +37,10 @@ fn before(ring: &Ring, index: usize) -> usize {
     if index == 0 { ring.len() - 1 } else { index - 1 }
 }
 
+fn after(ring: &Ring, index: usize) -> usize {
+    if index + 1 == ring.len() { 0 } else { index + 1 }
+}
+
 fn is_reflex(ring: &Ring, index: usize) -> bool {
     let (u, v) = (ring.edge(before(ring, index)), ring.edge(index));
     let turned = u.perp(&v);
@@ -100,35 +104,40 @@ fn first_hit(ring: &Ring, corner: usize, direction: Vector2) -> Option<Hit> {
 
 /// The two parts of a ring on either side of a cut from a corner to a point of an edge.
 fn divide(ring: &Ring, corner: usize, hit: &Hit) -> (Ring, Ring) {
-    let count = ring.len();
-    let mut left = Ring::default();
-    let mut index = corner;
-    loop {
-        left.push(ring.corners[index], ring.borders[index]);
-        if index == hit.edge {
-            break;
-        }
-        index = (index + 1) % count;
-    }
+    let mut left = part(ring, (corner, hit.edge), &[]);
     left.push(hit.point, Border::LAND);
-    let mut right = Ring::default();
-    right.push(ring.corners[corner], Border::LAND);
-    right.push(hit.point, ring.borders[hit.edge]);
-    index = (hit.edge + 1) % count;
-    while index != corner {
-        right.push(ring.corners[index], ring.borders[index]);
-        index = (index + 1) % count;
+    let cut = [(ring.corners[corner], Border::LAND), (hit.point, ring.borders[hit.edge])];
+    let right = part(ring, (after(ring, hit.edge), before(ring, corner)), &cut);
+    (tidy(left), tidy(right))
+}
+
+/// The corners of a ring from one round to another, behind some others.
+fn part(ring: &Ring, (from, to): (usize, usize), ahead: &[(Point2, Border)]) -> Ring {
+    let count = if from <= to { to + 1 - from } else { ring.len() - from + to + 1 };
+    // One more, for the end of the cut.
+    let mut part = Ring::with_capacity(count + ahead.len() + 1);
+    for (corner, border) in ahead {
+        part.push(*corner, *border);
     }
-    (tidy(&left), tidy(&right))
+    if from <= to {
+        part.extend(ring, from..to + 1);
+    } else {
+        part.extend(ring, from..ring.len());
+        part.extend(ring, 0..to + 1);
+    }
+    part
 }
 
 /// Without corners that coincide.
-fn tidy(ring: &Ring) -> Ring {
+fn tidy(ring: Ring) -> Ring {
+    let is_apart = |index: &usize| ring.edge(*index).norm_squared() > 1e-14;
+    // Hardly ever do any.
+    if (0..ring.len()).all(|index| is_apart(&index)) {
+        return ring;
+    }
     let mut clean = Ring::default();
-    for index in 0..ring.len() {
-        if ring.edge(index).norm_squared() > 1e-14 {
-            clean.push(ring.corners[index], ring.borders[index]);
-        }
+    for index in (0..ring.len()).filter(is_apart) {
+        clean.push(ring.corners[index], ring.borders[index]);
     }
     clean
 }

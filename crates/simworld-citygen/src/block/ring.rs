@@ -1,5 +1,7 @@
 //! A polygon whose edges know what they border, and its cuts by straight lines.
 
+use std::ops::Range;
+
 use simworld_core::geometry::{Point2, Vector2};
 use smallvec::SmallVec;
 
@@ -34,9 +36,16 @@ impl Ring {
         self.borders.clear();
     }
 
+    #[inline]
     pub(crate) fn push(&mut self, corner: Point2, border: Border) {
         self.corners.push(corner);
         self.borders.push(border);
+    }
+
+    /// Goes on with some of the corners of another ring.
+    pub(crate) fn extend(&mut self, other: &Ring, corners: Range<usize>) {
+        self.corners.extend_from_slice(&other.corners[corners.clone()]);
+        self.borders.extend_from_slice(&other.borders[corners]);
     }
 
     /// Puts a corner before the i-th.

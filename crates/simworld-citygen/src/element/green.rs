@@ -12,11 +12,14 @@ use crate::ElementConfig;
 use crate::block::Border;
 use crate::key::stream_at;
 use crate::lot::{Green, GreenKind};
-use crate::occupancy::Occupancy;
+use crate::occupancy::{Occupancy, least, most};
 use crate::threads;
 
 /// Distance of a tree from the edge of its green, m.
 const EDGE: f64 = 2.0;
+/// An edge farther than this above or below a row of the lattice is not near to any of its points, m: a little more than
+/// that, so that rounding decides nothing.
+const ROW_SLACK: f64 = EDGE + 0.01;
 /// Lattice points of one green.
 const MOST_POINTS: f64 = 20_000.0;
 /// Greens that one thread thinks of at once.
@@ -35,7 +38,7 @@ pub(super) fn plant(
     let is_planted = |green: &&Green| green.kind != GreenKind::Leftover && config.green_trees > 0.0;
     let greens: Vec<&Green> = setting.land.greens.iter().filter(is_planted).collect();
     // Trees are functions of their greens, so they are thought of on all threads; who gets room is decided in order.
-    let think = |batch: &[&Green]| -> Vec<Vec<(Element, [Point2; 4])>> {
+    let think = |batch: &[&Green]| -> Vec<Vec<Element>> {
         let trees = batch.par_chunks(CHUNK).map(|greens| {
             let area: f64 = greens.iter().map(|green| green.area).sum();
             let mut trees = Vec::with_capacity((area * config.green_trees).min(MOST_POINTS) as usize);
@@ -52,22 +55,12 @@ pub(super) fn plant(
     threads::in_order(greens.chunks(64 * CHUNK), think, |trees| {
         // Each part goes as it is taken over: this is when a city takes the most memory.
         before.drain(..).for_each(|part| elements.extend(part));
-        for (tree, ground) in trees.into_iter().flatten().flatten() {
-            if taken.take(&ground) {
-                elements.push(tree);
-            }
-        }
+        elements.extend(trees.into_iter().flatten().flatten().filter(|tree| taken.take(&ground_of(tree))));
     });
 }
 
-/// Thinks of the trees that would stand on a green, with the ground that each takes.
-fn think_of(
-    outline: &[Point2],
-    along: Border,
-    spacing: f64,
-    streams: Stream,
-    trees: &mut Vec<(Element, [Point2; 4])>,
-) {
+/// Thinks of the trees that would stand on a green.
+fn think_of(outline: &[Point2], along: Border, spacing: f64, streams: Stream, trees: &mut Vec<Element>) {
     let Some((low, high)) = bounds(outline) else { return };
     let size: Vector2 = high - low;
     let (columns, rows) = ((size.x / spacing).ceil(), (size.y / spacing).ceil());
@@ -77,15 +70,16 @@ fn think_of(
     let edges = edges(outline);
     let mut rng = stream_at(low, 100.0, streams).rng();
     for row in 0..rows as u32 {
+        let south = low.y + f64::from(row) * spacing;
+        let row_edges = Beside::of(&edges, (south, south + spacing));
         for column in 0..columns as u32 {
             let jitter = Vector2::new(rng.unit(), rng.unit());
             let position = low + (Vector2::new(f64::from(column), f64::from(row)) + jitter) * spacing;
-            if !is_inside(&edges, position) {
+            if !row_edges.hold(position) {
                 continue;
             }
             let shape = shape_of(EntityKind::Tree, &mut rng);
-            let tree = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
-            trees.push((tree, ground_of(&tree)));
+            trees.push(Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along });
         }
     }
 }
@@ -104,6 +98,33 @@ type Edge = ([Point2; 2], Vector2, f64);
 fn edges(outline: &[Point2]) -> SmallVec<[Edge; 8]> {
     let next = outline.iter().skip(1).chain(outline.first());
     outline.iter().zip(next).map(|(a, b)| ([*a, *b], b - a, (b - a).norm_squared())).collect()
+}
+
+/// The edges beside a row of the lattice: no other is passed at its heights, or near to it.
+struct Beside {
+    edges: SmallVec<[Edge; 8]>,
+    /// From where to where they reach.
+    span: (f64, f64),
+}
+
+impl Beside {
+    /// Those of an outline between two heights.
+    fn of(edges: &[Edge], (south, north): (f64, f64)) -> Self {
+        let is_beside =
+            |([a, b], ..): &Edge| most(a.y, b.y) >= south - ROW_SLACK && least(a.y, b.y) <= north + ROW_SLACK;
+        let edges: SmallVec<[Edge; 8]> = edges.iter().filter(|edge| is_beside(edge)).copied().collect();
+        let ends = edges.iter().flat_map(|(ends, ..)| ends);
+        let span = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
+            (least(low, end.x), most(high, end.x))
+        });
+        Self { edges, span }
+    }
+
+    /// Whether a point of the row lies within the outline, clear of its edges.
+    fn hold(&self, point: Point2) -> bool {
+        // Who is within has an edge on either side.
+        self.span.0 < point.x && point.x < self.span.1 && is_inside(&self.edges, point)
+    }
 }
 
 /// Whether a point lies within an outline, clear of its edges.

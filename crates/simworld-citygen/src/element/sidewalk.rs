@@ -35,6 +35,8 @@ const BUS_STOPS: f64 = 350.0;
 
 /// So many elements are mostly wished for along a sidewalk, and set there, in its street and behind it.
 const WISHES: usize = 14;
+/// So many of them mostly need room.
+const WITH_ROOM: usize = 1;
 /// Sidewalks that one thread furnishes at once.
 const CHUNK: usize = 64;
 /// Sidewalks that are furnished at once: what they wish for stays in the caches until it is decided on.
@@ -90,6 +92,7 @@ pub(super) fn line(
             let mut setter = Setter::default();
             setter.wishes.elements.reserve(WISHES * sidewalks.len());
             setter.wishes.needs.reserve(WISHES * sidewalks.len());
+            setter.wishes.grounds.reserve(WITH_ROOM * sidewalks.len());
             for (index, sidewalk) in sidewalks {
                 setter.begin(sidewalk, doors.at(*index), setting);
                 let zone = setter.zone(zoning);

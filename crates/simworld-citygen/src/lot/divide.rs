@@ -9,6 +9,10 @@ use crate::zoning::{Zone, Zoning};
 
 /// Pieces smaller than this are not worth a green, m².
 const SPECK: f64 = 1e-9;
+/// Two areas that differ by more than this differ, whatever was rounded, m².
+const PLAIN: f64 = 1e-5;
+/// So far about a depth it is not plain to which side of it another one lies, m.
+const NEAR: f64 = 1e-5;
 
 /// Divides one block and files the result.
 pub(super) struct Divider<'a> {
@@ -90,18 +94,19 @@ impl<'a> Divider<'a> {
             self.green(ring, GreenKind::Courtyard);
             return;
         }
-        if ring.area() < size.least_area {
+        let area = ring.area();
+        if area < size.least_area {
             self.green(ring, GreenKind::Leftover);
             return;
         }
-        if ring.area() <= size.most_area {
-            self.file_lot(ring, front);
+        if area <= size.most_area {
+            self.file_lot((ring, area), front);
             return;
         }
         let (mut lot, mut rear) = (Ring::default(), Ring::default());
         if self.shorten(ring, front, &mut lot, &mut rear) {
             let front = longest_front(&lot).0;
-            self.file_lot(&lot, front);
+            self.file_lot((&lot, lot.area()), front);
             self.green(&rear, GreenKind::Courtyard);
         } else {
             self.green(ring, GreenKind::Courtyard);
@@ -115,10 +120,17 @@ impl<'a> Divider<'a> {
         let origin = ring.corners[front];
         let most = self.size().most_area;
         let deepest = ring.corners.iter().map(|corner| (corner - origin).dot(&inwards)).fold(0.0, f64::max);
+        let area = |depth: f64| ring.area_behind(origin + inwards * depth, inwards);
+        let plain = plain_depths(most, (deepest, ring.area()), area);
         let (mut low, mut high) = (0.0, deepest);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if ring.area_behind(origin + inwards * middle, inwards).is_some_and(|area| area <= most) {
+            let is_less = match plain {
+                Some((less, _)) if middle <= less => true,
+                Some((_, more)) if middle >= more => false,
+                _ => area(middle).is_some_and(|area| area <= most),
+            };
+            if is_less {
                 low = middle;
             } else {
                 high = middle;
@@ -128,10 +140,11 @@ impl<'a> Divider<'a> {
         split == Split::Both && lot.area() >= self.size().least_area
     }
 
-    pub(super) fn file_lot(&mut self, ring: &Ring, front: usize) {
+    /// Files a lot of an area, m², that begins with its front.
+    pub(super) fn file_lot(&mut self, (ring, area): (&Ring, f64), front: usize) {
         let Some((road, side)) = ring.borders[front].as_street() else { return };
         let (start, count) = self.land.store(ring, front);
-        let (block, zone, density, area) = (self.block, self.zone, self.density, ring.area());
+        let (block, zone, density) = (self.block, self.zone, self.density);
         self.land.lots.push(Lot { start, count, block, zone, density, area, road, side });
     }
 
@@ -142,6 +155,23 @@ impl<'a> Divider<'a> {
             self.land.greens.push(Green { start, count, block: self.block, kind, area });
         }
     }
+}
+
+/// The depths up to which, and from which on, what lies before is plainly less and more than a wanted area; `None` where they are
+/// not found soon. The area grows with the depth: it is nothing at none, and known at the greatest.
+fn plain_depths(wanted: f64, greatest: (f64, f64), area: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let (mut before, mut here) = ((0.0, 0.0), greatest);
+    for _ in 0..4 {
+        // Most lots are as wide all the way in.
+        let width = (here.1 - before.1) / (here.0 - before.0);
+        let depth = here.0 + (wanted - here.1) / width;
+        (before, here) = (here, (depth, area(depth)?));
+        if (here.1 - wanted).abs() < PLAIN {
+            break;
+        }
+    }
+    let (less, more) = (here.0 - NEAR, here.0 + NEAR);
+    (area(less)? < wanted - PLAIN && area(more)? > wanted + PLAIN).then_some((less, more))
 }
 
 /// The longest edge along a street and its length, m; zero if there is none.

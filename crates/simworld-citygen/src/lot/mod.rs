@@ -267,8 +267,11 @@ impl Land {
 
     fn store(&mut self, ring: &Ring, first: usize) -> (u32, u32) {
         let start = self.corners.len() as u32;
-        self.corners.extend(ring.corners[first..].iter().chain(&ring.corners[..first]));
-        self.borders.extend(ring.borders[first..].iter().chain(&ring.borders[..first]));
+        let (corners, borders) = (ring.corners.split_at(first), ring.borders.split_at(first));
+        for (corners, borders) in [(corners.1, borders.1), (corners.0, borders.0)] {
+            self.corners.extend_from_slice(corners);
+            self.borders.extend_from_slice(borders);
+        }
         (start, ring.len() as u32)
     }
 }

@@ -78,11 +78,11 @@ pub(super) fn line(
 
 /// Files a lot; one of a park, or too small or too narrow, is green.
 fn file(divider: &mut Divider<'_>, lot: &Ring, is_park: bool) {
-    let (front, width) = longest_front(lot);
+    let ((front, width), area) = (longest_front(lot), lot.area());
     if is_park {
         divider.green(lot, GreenKind::Park);
-    } else if width >= 4.0 && lot.area() >= divider.size().least_area {
-        divider.file_lot(lot, front);
+    } else if width >= 4.0 && area >= divider.size().least_area {
+        divider.file_lot((lot, area), front);
     } else {
         divider.green(lot, GreenKind::Leftover);
     }

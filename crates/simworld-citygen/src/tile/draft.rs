@@ -116,9 +116,10 @@ impl Drawer {
         if superblock.has_dead_end(|street| meets(nodes[street.from]) || meets(nodes[street.to])) {
             superblock.make_turning_room(roads);
         }
-        let Within { nodes, streets } = superblock.within;
+        let Superblock { within: Within { nodes, streets }, walls } = superblock;
         for street in &streets {
-            for end in [street.from, street.to] {
+            // Only at the wall could they meet the outline.
+            for end in [street.from, street.to].into_iter().filter(|end| *end < walls) {
                 let Some(here) = self.known.get(&bits(nodes[end])).copied() else { continue };
                 let far = self.plan.nodes.len();
                 self.plan.nodes.push(nodes[street.from + street.to - end]);

@@ -195,23 +195,18 @@ impl StreetPlan {
         }
         self.check_elevations()?;
         let faults: Vec<Option<String>> = self.sections.iter().map(CrossSection::fault).collect();
-        let mut pairs: Vec<(usize, usize, usize)> = Vec::with_capacity(self.streets.len());
+        let mut pairs: Vec<u64> = Vec::with_capacity(self.streets.len());
         for (index, street) in self.streets.iter().enumerate() {
             self.check_street(street, &faults)
                 .map_err(|reason| NetworkError::Street { street: index, reason })?;
-            pairs.push((street.from.min(street.to), street.from.max(street.to), index));
+            pairs.push(joined(street));
         }
         pairs.sort_unstable();
-        match pairs.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
-            Some(pair) => Err(NetworkError::Street {
-                street: pair[1].2,
-                reason: format!(
-                    "joins the same nodes as street {}: remove one, or put a node on it",
-                    pair[0].2
-                ),
-            }),
-            None => Ok(()),
-        }
+        let Some(doubled) = pairs.windows(2).find(|pair| pair[0] == pair[1]) else { return Ok(()) };
+        let mut between = (0..).zip(&self.streets).filter(|(_, street)| joined(street) == doubled[0]);
+        let [first, street] = [between.next(), between.next()].map(|found| found.map_or(0, |found| found.0));
+        let reason = format!("joins the same nodes as street {first}: remove one, or put a node on it");
+        Err(NetworkError::Street { street, reason })
     }
 
     fn check_elevations(&self) -> Result<(), NetworkError> {
@@ -309,4 +304,10 @@ impl StreetPlan {
 
 fn is_near(point: &Point2) -> bool {
     point.x.abs() <= 1e7 && point.y.abs() <= 1e7
+}
+
+/// The nodes that a street joins, whichever way it runs, as one number: nodes are counted by half its bits, as ids are.
+fn joined(street: &Street) -> u64 {
+    let (low, high) = (street.from.min(street.to), street.from.max(street.to));
+    (low as u64) << 32 | high as u64
 }

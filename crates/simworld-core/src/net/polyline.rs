@@ -229,7 +229,10 @@ impl<'a> Measured<'a> {
         let mut station = 0.0;
         for (end, span) in self.path.iter().skip(1).zip(&self.spans) {
             station += span;
-            if station > from + 1e-9 && station < to - 1e-9 {
+            if station >= to - 1e-9 {
+                break;
+            }
+            if station > from + 1e-9 {
                 out.push(*end);
             }
         }
@@ -256,7 +259,13 @@ impl<'a> Measured<'a> {
         let mut start = 0.0;
         for (pair, span) in self.path.windows(2).zip(&self.spans) {
             let (step, to_point) = (pair[1] - pair[0], point - pair[0]);
-            let along = if *span > 0.0 { (to_point.dot(&step) / (span * span)).clamp(0.0, 1.0) } else { 0.0 };
+            let (along, most) = (to_point.dot(&step), span * span);
+            // Divided only where it lies beside the piece: most pieces lie ahead of a point, or behind it.
+            let along = match along {
+                _ if along <= 0.0 || most == 0.0 => 0.0,
+                _ if along >= most => 1.0,
+                _ => along / most,
+            };
             let squared = (to_point - step * along).norm_squared();
             // What is not nearer by its square is not nearer by its root.
             if best.is_none_or(|(least, ..)| squared < least) {

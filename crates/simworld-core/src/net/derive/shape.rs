@@ -49,13 +49,16 @@ pub(super) struct Shape {
     sag: f64,
 }
 
-impl Shape {
-    /// That of a path, of which the square of the length of the longest piece is given, m².
-    pub(super) fn of(path: &[Point2], longest: f64) -> Self {
+/// A shape of which the ends alone are known.
+pub(super) struct Outline(Shape);
+
+impl Outline {
+    /// That of a path.
+    pub(super) fn of(path: &[Point2]) -> Self {
         let start = path.first().copied().unwrap_or_else(Point2::origin);
         let end = path.last().copied().unwrap_or(start);
         let chord = end - start;
-        let mut shape = Self {
+        let mut shape = Shape {
             start,
             end,
             chord,
@@ -65,16 +68,30 @@ impl Shape {
             beside: Extent::NONE,
             hull: Hull::everywhere(start),
             bend: OnceCell::new(),
-            sag: longest * 0.25,
+            sag: 0.0,
         };
         shape.first = shape.turned(&start);
-        shape.beside = shape.seen(path);
+        Self(shape)
+    }
+
+    /// Where a point lies along and across the chord, seen from the origin.
+    pub(super) fn turned(&self, point: &Point2) -> [f64; 2] {
+        self.0.turned(point)
+    }
+
+    /// The shape, by what all points of its path take as they are turned, and by the square of the length of its longest piece, m².
+    pub(super) fn filled(self, turned: &Extent, longest: f64) -> Shape {
+        let Self(mut shape) = self;
+        shape.beside = turned.moved(shape.first.map(|first| -first));
+        shape.sag = longest * 0.25;
         if shape.length > SHORTEST {
             shape.hull = shape.hull_of(&shape.beside);
         }
         shape
     }
+}
 
+impl Shape {
     /// The middle of the circle through both ends and a point that lies so far from the first; `None` where the three are as good as
     /// on one line.
     fn center(&self, middle: Vector2) -> Option<Point2> {

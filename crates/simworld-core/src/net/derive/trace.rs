@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::extent::Extent;
 use super::pieces::{LANES, Pieces};
-use super::shape::Shape;
+use super::shape::{Outline, Shape};
 use crate::geometry::{Point2, Vector2};
 use crate::net::polyline;
 use crate::ops::{greater, lesser};
@@ -105,19 +105,23 @@ impl Traces {
     }
 
     pub(super) fn add(&mut self, path: &[Point2]) -> Trace {
-        let mut extent = Extent::NONE;
+        let outline = Outline::of(path);
+        let (mut extent, mut turned, mut longest) = (Extent::NONE, Extent::NONE, 0.0);
+        let mut before = path.first().copied().unwrap_or_else(Point2::origin);
+        // All in one go: each of them waits for what was before, and none for another.
         for point in path {
             extent.add([point.x, point.y]);
+            turned.add(outline.turned(point));
+            longest = greater(longest, (point - before).norm_squared());
+            before = *point;
         }
-        let squares = path.windows(2).map(|piece| (piece[1] - piece[0]).norm_squared());
-        let longest = squares.fold(0.0, greater);
         let first = self.points.len();
         self.points.extend_from_slice(path);
         Trace {
             points: first..self.points.len(),
             extent,
             longest: longest.sqrt(),
-            shape: Shape::of(path, longest),
+            shape: outline.filled(&turned, longest),
         }
     }
 
