@@ -13,6 +13,7 @@ use crate::vehicle::manager::{EXIT, NONE, Vehicle, VehicleManager};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::ghosts::{BLOCK_SEEN, Ghost, first_block, sort};
 use crate::vehicle::queues::path::Path;
+use crate::vehicle::queues::slabs::Cursor;
 use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::closures::Closures;
 use crate::vehicle::tracks::{Track, Tracks};
@@ -86,9 +87,8 @@ impl Part {
     pub(in crate::vehicle) fn change_lanes(&mut self, scene: &Scene<'_>) {
         let layout = self.layout(scene.tracks);
         let is_turn_of = scene.at.turn();
-        let mut from = 0;
-        while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
-            from = local + 1;
+        let mut at = Cursor::default();
+        while let Some(local) = self.slabs.next_at_hand(&mut at).filter(|local| *local < layout.lanes) {
             let lane = layout.tracks[local];
             if !is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
                 continue;
