@@ -27,6 +27,8 @@ const LONGEST: f64 = 20.0;
 /// Who is slower than this does not go on past a body that leaves less than this beside it, m/s and m.
 const CRAWLS: f64 = 3.0;
 const TO_SIDE: f64 = 0.2;
+/// No farther before the end of its lane one waits whose lane does not lead on, m: with room for three changes.
+const CHANGES: f64 = 3.0 * CHANGE_ROOM + 1.0;
 /// In a lock that only all together undo one stands so near to who is ahead, m, and goes no faster there, m/s.
 const CLOSE: f64 = 0.8;
 const CLOSES_AT: f64 = 2.0;
@@ -123,7 +125,7 @@ pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leade
 #[inline]
 fn minds_end(vehicle: &Vehicle, to_end: f64, is_first: bool) -> bool {
     let beyond = if is_first { LONGEST } else { 0.0 };
-    vehicle.next == NONE || to_end <= horizon(vehicle.v) + beyond
+    to_end <= horizon(vehicle.v) + if vehicle.next == NONE { CHANGES } else { beyond }
 }
 
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
