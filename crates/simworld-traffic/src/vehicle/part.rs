@@ -16,7 +16,7 @@ use super::manager::{EXIT, NONE, STANDING, Vehicle};
 use super::queues::claims::Claims;
 use super::queues::ghosts::Ghost;
 use super::queues::path::Path;
-use super::queues::slabs::Slabs;
+use super::queues::slabs::{Cursor, Slabs};
 use super::queues::tail::Tail;
 use super::scene::Scene;
 use super::tracks::layout::PartLayout;
@@ -63,9 +63,9 @@ pub(crate) struct Work {
     busy: Vec<u64>,
     /// Tracks whose front left them in this step.
     passed: Vec<u32>,
-    /// The last vehicle of each lane, and the lanes that were shown to have one.
+    /// The last vehicle of each lane, and the lanes that were shown to have one, a bit each.
     pub(super) tails: Vec<Tail>,
-    shown: Vec<u32>,
+    shown: Vec<u64>,
     /// Who leaves for the lanes of each part.
     pub(super) handed: Vec<Vec<Transfer>>,
     pub(super) ended: Vec<Trip>,
@@ -135,30 +135,36 @@ impl Part {
         if tails.len() != lanes {
             *tails = vec![Tail::default(); lanes];
         }
-        // Those that have somebody are shown anew whole.
-        let left = shown.drain(..).filter(|lane| !self.slabs.is_occupied(*lane as usize));
-        left.for_each(|lane| tails[lane as usize] = Tail::default());
+        shown.resize(lanes.div_ceil(64), 0);
+        for (word, shown) in shown.iter_mut().enumerate() {
+            // Those that have somebody are shown anew whole.
+            let mut left = *shown & !self.slabs.word(word);
+            while left != 0 {
+                tails[word * 64 + left.trailing_zeros() as usize] = Tail::default();
+                left &= left - 1;
+            }
+            *shown = 0;
+        }
         for lane in self.slabs.occupied().take_while(|lane| *lane < lanes) {
             let [first, ..] = self.slabs.queue(lane) else { continue };
             let last = self.slabs.queue(lane).last().unwrap_or(first);
             let closes_up = !passes.is_empty() && passes.binary_search(&first.id).is_ok();
             tails[lane] = Tail::of(last).closing_up(closes_up);
-            shown.push(lane as u32);
+            shown[lane / 64] |= 1 << (lane % 64);
         }
     }
 
     /// Shows those whose front has left a lane by a junction and whose rear has not, where nobody is behind them.
     fn show_leavers(&mut self, scene: &Scene<'_>) {
         let (tracks, layout) = (scene.tracks, self.layout(scene.tracks));
-        let mut from = layout.lanes;
-        while let Some(local) = self.slabs.occupied_from(from) {
-            from = local + 1;
+        let mut at = self.slabs.cursor(layout.lanes);
+        while let Some(local) = self.slabs.next(&mut at) {
             let Some(last) = self.slabs.queue(local).last() else { continue };
             let way = layout.tracks[local] as usize - tracks.lanes;
             let Some(leaver) = Tail::of_leaver(tracks, way, last) else { continue };
             let local = tracks.layout.local(tracks.ways[way].from);
             if self.work.tails[local].see_leaver(&leaver) {
-                self.work.shown.push(local as u32);
+                self.work.shown[local / 64] |= 1 << (local % 64);
             }
         }
     }
@@ -170,7 +176,7 @@ impl Part {
             let tail = ghost.as_tail();
             if tail.rear < tails[ghost.lane as usize].rear {
                 tails[ghost.lane as usize] = tail;
-                shown.push(ghost.lane);
+                shown[ghost.lane as usize / 64] |= 1 << (ghost.lane % 64);
             }
         }
     }
@@ -181,7 +187,7 @@ impl Part {
             let place = scene.tracks.layout.place(lane);
             if place.part == self.number {
                 self.work.tails[place.local as usize] = tail;
-                self.work.shown.push(place.local);
+                self.work.shown[place.local as usize / 64] |= 1 << (place.local % 64);
             }
         }
     }
@@ -207,7 +213,7 @@ impl Part {
         self.list_steered(scene);
         let layout = self.layout(scene.tracks);
         let lanes = scene.tracks.lanes as Track;
-        self.work.held.look(&layout.tracks[layout.lanes..], |way| scene.junctions.is_held(way - lanes));
+        self.work.held.look(layout, |way| scene.junctions.is_held(way - lanes));
         let mut steered = &self.work.steered[..];
         let mut ghosts = &self.work.ghosts[..];
         for local in self.slabs.occupied() {
@@ -251,9 +257,8 @@ impl Part {
         busy.clear();
         busy.resize(layout.tracks.len().div_ceil(64), 0);
         let mut accelerations = &accelerations[..];
-        let mut from = 0;
-        while let Some(local) = self.slabs.occupied_from(from) {
-            from = local + 1;
+        let mut at = Cursor::default();
+        while let Some(local) = self.slabs.next(&mut at) {
             let end = layout.measures[local].length;
             let queue = self.slabs.queue_mut(local);
             let (own, rest) = accelerations.split_at(queue.len());

@@ -5,6 +5,7 @@
 
 use simworld_core::net::DrivingSide;
 
+use super::mobil::Stay;
 use crate::Leg;
 use crate::takeover::LaneWish;
 use crate::vehicle::VehicleKind;
@@ -13,6 +14,7 @@ use crate::vehicle::manager::{EXIT, NONE, Vehicle, VehicleManager};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::ghosts::{BLOCK_SEEN, Ghost, first_block, sort};
 use crate::vehicle::queues::path::Path;
+use crate::vehicle::queues::slabs::Cursor;
 use crate::vehicle::scene::Scene;
 use crate::vehicle::tracks::closures::Closures;
 use crate::vehicle::tracks::{Track, Tracks};
@@ -86,9 +88,8 @@ impl Part {
     pub(in crate::vehicle) fn change_lanes(&mut self, scene: &Scene<'_>) {
         let layout = self.layout(scene.tracks);
         let is_turn_of = scene.at.turn();
-        let mut from = 0;
-        while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
-            from = local + 1;
+        let mut at = Cursor::default();
+        while let Some(local) = self.slabs.next_at_hand(&mut at).filter(|local| *local < layout.lanes) {
             let lane = layout.tracks[local];
             if !is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
                 continue;
@@ -107,14 +108,18 @@ impl Part {
     /// Lets a vehicle change to the best lane beside, if it wants to and may.
     fn consider(&mut self, scene: &Scene<'_>, lane: Track, rank: usize) -> bool {
         let Some(wish) = self.wish(scene, lane, rank) else { return false };
+        let queue = self.slabs.queue(scene.tracks.layout.local(lane));
+        let stay = (!wish.must).then(|| Stay::new(scene, queue, rank, lane));
+        let most = self.most_better(scene, (lane, rank));
         let mut best: Option<(f64, Track, u32, usize)> = None;
         for target in scene.tracks.beside[lane as usize].into_iter().filter(|target| *target != NONE) {
-            if !self.may_take(scene, &wish, (lane, rank), target) {
+            let could_gain = |stay: &Stay| stay.could_gain(scene, &queue[rank], target, most);
+            if !stay.as_ref().is_none_or(could_gain) || !self.may_take(scene, &wish, (lane, rank), target) {
                 continue;
             }
-            let Some(offer) = self.offer(scene, (lane, rank), target, wish.must) else { continue };
+            let Some(offer) = self.offer(scene, (lane, rank), target, stay.as_ref()) else { continue };
             // Where its way leads is far away in memory: one looks there only if that can still decide.
-            if !offer.is_worth(self.most_better(scene, (lane, rank))) {
+            if !offer.is_worth(most) {
                 continue;
             }
             let Some(way) = self.way_from(scene, &wish, (lane, rank), target) else { continue };

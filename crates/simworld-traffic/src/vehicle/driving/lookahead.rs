@@ -27,6 +27,8 @@ const LONGEST: f64 = 20.0;
 /// Who is slower than this does not go on past a body that leaves less than this beside it, m/s and m.
 const CRAWLS: f64 = 3.0;
 const TO_SIDE: f64 = 0.2;
+/// No farther before the end of its lane one waits whose lane does not lead on, m: with room for three changes.
+const CHANGES: f64 = 3.0 * CHANGE_ROOM + 1.0;
 /// In a lock that only all together undo one stands so near to who is ahead, m, and goes no faster there, m/s.
 const CLOSE: f64 = 0.8;
 const CLOSES_AT: f64 = 2.0;
@@ -38,6 +40,8 @@ pub(in crate::vehicle) struct Lane<'a> {
     track: Track,
     /// The connection that it is, if it is one.
     way: Option<usize>,
+    /// Its number in the part.
+    local: usize,
     /// Its length, m.
     end: f64,
     /// The speeds that the law and its bends allow, m/s.
@@ -58,23 +62,34 @@ impl<'a> Lane<'a> {
         ghosts: &'a [Ghost],
     ) -> Self {
         let tracks = scene.tracks;
-        let track = part.layout(tracks).tracks[local];
-        let Measure { length: end, limit, bend } = part.layout(tracks).measures[local];
+        let layout = part.layout(tracks);
+        let track = layout.tracks[local];
+        let Measure { length: end, limit, bend } = layout.measures[local];
         let way = tracks.connection(track);
         let closes_up = !scene.passes.is_empty()
             && scene.tail(way.map_or(track, |way| tracks.lane_after(way))).closes_up();
-        Self { part, scene, track, way, end, limit, bend, ghosts, closes_up }
+        Self { part, scene, track, way, local, end, limit, bend, ghosts, closes_up }
+    }
+
+    /// The number in the part of the lane itself, or of that from which a way leads.
+    fn before_line(&self) -> usize {
+        let layout = self.part.layout(self.scene.tracks);
+        self.local.checked_sub(layout.lanes).map_or(self.local, |way| layout.from[way] as usize)
     }
 }
 
 /// The accelerations of the vehicles of a track, front to back, m/s².
 pub(in crate::vehicle) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], accelerations: &mut Vec<f64>) {
-    let (is_plain, mut leader) = (lane.is_plain(), None);
-    accelerations.extend(queue.iter().map(|vehicle| {
-        let leader = leader.replace(vehicle);
-        let plain = if is_plain { lane.follow_on(vehicle, leader) } else { None };
-        plain.unwrap_or_else(|| acceleration(lane, vehicle, leader))
-    }));
+    let mut leader = None;
+    if lane.is_plain() {
+        accelerations.extend(queue.iter().map(|vehicle| {
+            let leader = leader.replace(vehicle);
+            lane.follow_on(vehicle, leader).unwrap_or_else(|| acceleration(lane, vehicle, leader))
+        }));
+    } else {
+        accelerations
+            .extend(queue.iter().map(|vehicle| acceleration(lane, vehicle, leader.replace(vehicle))));
+    }
 }
 
 /// The acceleration of a vehicle, m/s².
@@ -105,11 +120,12 @@ pub(in crate::vehicle) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leade
     view.respond(lane, vehicle)
 }
 
-/// Whether one without leave to cross minds the end of its lane, or, as the first, who has left it but for his rear.
+/// Whether one without leave to cross minds the end of its lane, or, as the first, who has left it but for his rear: from so far as one
+/// minds a line, and whose lane does not lead on from where he would wait before that to change.
 #[inline]
 fn minds_end(vehicle: &Vehicle, to_end: f64, is_first: bool) -> bool {
     let beyond = if is_first { LONGEST } else { 0.0 };
-    vehicle.next == NONE || to_end <= horizon(vehicle.v) + beyond
+    to_end <= horizon(vehicle.v) + if vehicle.next == NONE { CHANGES } else { beyond }
 }
 
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
@@ -292,8 +308,11 @@ impl View<'_> {
 
     /// Must have a speed so far ahead, braking comfortably.
     fn slow_to(&mut self, speed: f64, distance: f64) {
-        let allowed = (speed * speed + 2.0 * self.idm.deceleration * greater(distance, 0.0)).sqrt();
-        self.bend = lesser(greater(allowed, 0.5), self.bend);
+        let square = speed * speed + 2.0 * self.idm.deceleration * greater(distance, 0.0);
+        // Hardly ever: most are far from there, or slow.
+        if square < self.bend * self.bend {
+            self.bend = lesser(greater(square.sqrt(), 0.5), self.bend);
+        }
     }
 
     /// On a lane without leave to cross: its end, and those who have left it but for their rear.
@@ -312,7 +331,8 @@ impl View<'_> {
             _ => {}
         }
         // A rear may be as far before the line as a vehicle is long.
-        if !is_first || to_end > horizon(vehicle.v) + LONGEST {
+        let is_far = !is_first || to_end > horizon(vehicle.v) + LONGEST;
+        if is_far || !lane.part.work.held.leads_from(lane.local) {
             return;
         }
         for (rear, v) in lane.part.leavers(lane.scene, lane.track) {
@@ -368,8 +388,11 @@ impl View<'_> {
     /// Stays behind those who left the same lane for another way until their rear is out of one's own; `at` is where one is
     /// on the way, negative before it.
     fn let_part(&mut self, lane: &Lane<'_>, way: usize, at: f64) {
-        let tracks = lane.scene.tracks;
-        for (sibling, clear) in &tracks.siblings[way] {
+        // He holds his own way himself.
+        if !lane.part.work.held.parts_from(lane.before_line()) {
+            return;
+        }
+        for (sibling, clear) in &lane.scene.tracks.siblings[way] {
             if !lane.scene.junctions.is_held(*sibling) {
                 continue;
             }

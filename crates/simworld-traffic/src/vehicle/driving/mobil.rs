@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::idm::Driver;
 use super::lane_change::stretch;
 use crate::vehicle::foreign::strangers;
 use crate::vehicle::manager::{NONE, Vehicle};
@@ -64,20 +65,70 @@ impl Offer {
     }
 }
 
+/// What it is worth to one who may change for speed to stay in his lane, and what he asks of another.
+pub(super) struct Stay {
+    /// His acceleration here, m/s².
+    now: f64,
+    /// What the one behind him gains if he leaves, as far as he cares, m/s².
+    left_behind: f64,
+    /// How well the lane suits him, beside what it would be for others.
+    suits: i8,
+    /// The weight of what others lose, and the gain below which he stays, m/s².
+    politeness: f64,
+    threshold: f64,
+}
+
+impl Stay {
+    pub(super) fn new(scene: &Scene<'_>, queue: &[Vehicle], rank: usize, lane: Track) -> Self {
+        let (vehicle, mobil) = (&queue[rank], &scene.config.mobil);
+        // With a siren every gain is worth it, and what others lose is nothing.
+        let siren = scene.sirens.is_on(vehicle.id);
+        let (politeness, threshold) = if siren { (0.0, 0.0) } else { (mobil.politeness, mobil.threshold) };
+        let (now, left_behind) = staying(scene, queue, rank, lane);
+        let (left_behind, suits) = (politeness * left_behind, suits(scene, vehicle, lane));
+        Self { now, left_behind, suits, politeness, threshold }
+    }
+
+    /// Whether a lane beside could be worth it even if it leads on better by so many grades: if nobody were ahead there, and nobody lost
+    /// anything by it. Most have too little to gain, and for them nobody's place in that lane has to be found.
+    pub(super) fn could_gain(
+        &self,
+        scene: &Scene<'_>,
+        vehicle: &Vehicle,
+        target: Track,
+        better: f64,
+    ) -> bool {
+        let alone = drive(scene, vehicle, target, (f64::INFINITY, 0.0));
+        self.offer(scene, vehicle, (target, 0), alone, 0.0).is_worth(better)
+    }
+
+    /// The offer of a lane and of a place in its queue, for an acceleration there and a loss of the one behind, m/s².
+    fn offer(
+        &self,
+        scene: &Scene<'_>,
+        vehicle: &Vehicle,
+        (target, place): (Track, usize),
+        mine: f64,
+        loss: f64,
+    ) -> Offer {
+        let own = mine - self.now + f64::from(suits(scene, vehicle, target) - self.suits) * OWN_LANE;
+        let others = self.left_behind - self.politeness * loss;
+        Offer { place, own, others, grade: OWN_LANE, threshold: self.threshold }
+    }
+}
+
 impl Part {
-    /// What a lane beside offers; `None` if it is not safe to change to it. For one who must change every lane is worth it.
+    /// What a lane beside offers; `None` if it is not safe to change to it. For one who must change, and so has nothing to say for staying,
+    /// every lane is worth it.
     pub(super) fn offer(
         &self,
         scene: &Scene<'_>,
         (lane, rank): (Track, usize),
         target: Track,
-        must: bool,
+        stay: Option<&Stay>,
     ) -> Option<Offer> {
         let Scene { tracks, config, .. } = scene;
-        let mobil = &config.mobil;
-        let queue = self.slabs.queue(tracks.layout.local(lane));
-        let vehicle = queue[rank];
-        let row = config.vehicle_type(vehicle.row);
+        let vehicle = self.slabs.queue(tracks.layout.local(lane))[rank];
         let length = vehicle.length();
         let s = vehicle.s * stretch(tracks, lane, target);
         if s >= tracks.length[target as usize] - 1.0 || (s - length) < 0.5 {
@@ -85,43 +136,26 @@ impl Part {
         }
         let there = self.neighbours(tracks.layout.local(target), s, length);
         let (ahead, behind) = self.room(scene, &there, &vehicle, s, target)?;
-        let free = |lane: Track| row.free_speed(config, vehicle.factor, tracks.speed[lane as usize]);
         let follower = self.slabs.queue(tracks.layout.local(target)).get(there.rank);
-        let dt = scene.at.dt;
         let leader_speed = there.ahead.map_or(0.0, |a| a.1);
-        let mine = row.drive(vehicle.v, free(target), (ahead, leader_speed), dt);
+        let mine = drive(scene, &vehicle, target, (ahead, leader_speed));
         let follower = follower.map(|other| {
-            let row = config.vehicle_type(other.row);
-            let free = row.free_speed(config, other.factor, tracks.speed[target as usize]);
             let alone = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - (s - length - behind));
-            let before = row.drive(other.v, free, (alone, leader_speed), dt);
-            (before, row.drive(other.v, free, (behind, vehicle.v), dt))
+            let before = drive(scene, other, target, (alone, leader_speed));
+            (before, drive(scene, other, target, (behind, vehicle.v)))
         });
-        let safe = -mobil.safe_braking;
+        let safe = -config.mobil.safe_braking;
         if mine < safe || follower.is_some_and(|(_, after)| after < safe) {
             return None;
         }
         let place = there.rank;
-        if must {
-            return Some(Offer {
-                place,
-                own: 1e3 + mine,
-                others: 0.0,
-                grade: 0.0,
-                threshold: f64::NEG_INFINITY,
-            });
-        }
-        // With a siren every gain is worth it, and what others lose is nothing.
-        let siren = scene.sirens.is_on(vehicle.id);
-        let (politeness, threshold) = if siren { (0.0, 0.0) } else { (mobil.politeness, mobil.threshold) };
-        let (now, left_behind) = staying(scene, queue, rank, lane);
-        let suits = |lane: Track| {
-            let stops_there = vehicle.halt.is_finite() && tracks.outermost[lane as usize];
-            tracks.suits(lane, row.kind) + 2 * i8::from(stops_there)
+        let Some(stay) = stay else {
+            let (own, threshold) = (1e3 + mine, f64::NEG_INFINITY);
+            return Some(Offer { place, own, others: 0.0, grade: 0.0, threshold });
         };
-        let own = mine - now + f64::from(suits(target) - suits(lane)) * OWN_LANE;
-        let loss = follower.map_or(0.0, |(before, after)| before - after);
-        Some(Offer { place, own, others: politeness * (left_behind - loss), grade: OWN_LANE, threshold })
+        // Nobody gains by one who comes in before him, however fast that one is.
+        let loss = follower.map_or(0.0, |(before, after)| (before - after).max(0.0));
+        Some(stay.offer(scene, &vehicle, (target, place), mine, loss))
     }
 
     /// The gaps before and behind a place in a lane; nothing if one must not go there, however safe it would be.
@@ -166,22 +200,33 @@ impl Part {
     }
 }
 
+/// How well a lane suits a vehicle, beside where it leads.
+fn suits(scene: &Scene<'_>, vehicle: &Vehicle, lane: Track) -> i8 {
+    let stops_there = vehicle.halt.is_finite() && scene.tracks.outermost[lane as usize];
+    let kind = scene.config.vehicle_type(vehicle.row).kind;
+    scene.tracks.suits(lane, kind) + 2 * i8::from(stops_there)
+}
+
+/// The acceleration of a vehicle on a lane, m/s², so far behind somebody with that speed, m and m/s.
+fn drive(scene: &Scene<'_>, vehicle: &Vehicle, lane: Track, leader: (f64, f64)) -> f64 {
+    let Driver { idm, closes_by, is_perfect } = &scene.drivers[usize::from(vehicle.row)];
+    let free = idm.free_speed(scene.config, vehicle.factor, scene.tracks.speed[lane as usize]);
+    if *is_perfect {
+        return idm.respond(vehicle.v, free, idm.pressure_by(*closes_by, vehicle.v, leader.0, leader.1));
+    }
+    scene.config.vehicle_type(vehicle.row).drive(vehicle.v, free, leader, scene.at.dt)
+}
+
 /// The acceleration of a vehicle that stays in its lane, and what the one behind it gains if it leaves, m/s².
 fn staying(scene: &Scene<'_>, queue: &[Vehicle], rank: usize, lane: Track) -> (f64, f64) {
-    let Scene { tracks, config, at, .. } = scene;
     let vehicle = &queue[rank];
-    let limit = tracks.speed[lane as usize];
-    let drive = |other: &Vehicle, gap: f64, leader: f64| {
-        let row = config.vehicle_type(other.row);
-        row.drive(other.v, row.free_speed(config, other.factor, limit), (gap, leader), at.dt)
-    };
     let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
     let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.length() - s);
     let speed = leader.map_or(0.0, |leader| leader.v);
-    let now = drive(vehicle, gap(vehicle.s), speed);
+    let now = drive(scene, vehicle, lane, (gap(vehicle.s), speed));
     let gain = queue.get(rank + 1).map_or(0.0, |other| {
         let near = vehicle.s - vehicle.length() - other.s;
-        drive(other, gap(other.s), speed) - drive(other, near, vehicle.v)
+        drive(scene, other, lane, (gap(other.s), speed)) - drive(scene, other, lane, (near, vehicle.v))
     });
     (now, gain)
 }

@@ -115,6 +115,9 @@ impl VehicleManager {
         lane: Track,
         first: &Vehicle,
     ) -> Option<Track> {
+        if first.stood <= LOCKED {
+            return None; // nobody who has just come is in a lock
+        }
         let follows = || self.follows_onto(tracks, lane, first);
         if let Some(after) = self.behind_a_leaver(tracks, lane, first).or_else(follows) {
             return Some(after);

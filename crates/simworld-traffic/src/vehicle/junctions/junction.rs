@@ -18,6 +18,7 @@ use crate::vehicle::driving::sirens::{SEES as SIREN_SEES, may_pass_red};
 use crate::vehicle::manager::{EXIT, NONE, STANDING, Vehicle};
 use crate::vehicle::part::Part;
 use crate::vehicle::queues::claims::Claims;
+use crate::vehicle::queues::slabs::Cursor;
 use crate::vehicle::queues::storage::Storage;
 use crate::vehicle::queues::tail::Tail;
 use crate::vehicle::queues::tally::Tally;
@@ -164,9 +165,8 @@ impl Part {
         let mut requests = std::mem::take(&mut self.work.requests);
         requests.clear();
         let mut junctions = layout.junctions.iter().map(|lanes| lanes.end as usize);
-        let (mut until, mut from, mut word) = (0, 0, usize::MAX);
-        while let Some(local) = self.slabs.next_at_hand(from).filter(|local| *local < layout.lanes) {
-            from = local + 1;
+        let (mut until, mut at, mut word) = (0, Cursor::default(), usize::MAX);
+        while let Some(local) = self.slabs.next_at_hand(&mut at).filter(|local| *local < layout.lanes) {
             if self.clock.is_long() && local / 64 != word {
                 word = local / 64;
                 self.touch_ahead(scene, word);
@@ -176,11 +176,15 @@ impl Part {
                 until = junctions.find(|end| *end > local).unwrap_or(layout.lanes);
             }
             let (track, end) = (layout.tracks[local], layout.measures[local].length);
-            self.revoke(scene, local, end);
-            self.collect(scene, local, end, &mut requests);
-            if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {
+            let Some(first) = self.slabs.queue(local).first() else { continue };
+            if first.is_stuck() {
                 self.work.stuck.push(track);
             }
+            if first.minds_no_junction(end) {
+                continue; // nor does anybody behind
+            }
+            self.revoke(scene, local, end);
+            self.collect(scene, local, end, &mut requests);
         }
         self.grant(scene, &mut requests);
         self.work.requests = requests;
@@ -341,6 +345,13 @@ pub(in crate::vehicle) fn horizon(v: f64) -> f64 {
     8.0 + v * 1.5 + v * v / 4.0
 }
 
+impl Vehicle {
+    /// Whether one of a lane with that end has no leave to lose, and is too far from there to ask for it.
+    fn minds_no_junction(&self, end: f64) -> bool {
+        self.holding == NONE && self.next != EXIT && end - self.s > horizon(self.v)
+    }
+}
+
 /// Whether a vehicle would ask in vain, and has not stood for so long that anybody does anything about it.
 fn waits_at_red(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
     let signal = scene.tracks.signals[vehicle.next as usize];
@@ -362,17 +373,22 @@ fn may_enter(
         && (signal_allows(scene, way, vehicle, distance) || (siren && may_pass_red(scene, vehicle, distance)))
         && (siren || !scene.sirens.keep_free(tracks, way))
         && (siren || !tracks.ways[way].stops || has_stopped(vehicle, &tracks.ways[way], distance))
-        && tracks.tight[way].iter().all(|other| {
-            let held = if vehicle.is_long() { &junctions.holders } else { &junctions.long_holders };
-            held.get(*other as usize) == 0
-        })
+        && (!tracks.ways[way].is_tight || has_tight_ways_free(scene, way, vehicle))
         && !(vehicle.is_long() && tracks.narrow[way].iter().any(|other| junctions.has_long(*other)))
-        && tracks.strips[way].iter().all(|strip| {
-            sight.walkers[strip.crossing as usize] == 0
-                && (siren || sight.waiting[strip.crossing as usize] == 0)
-        })
+        && (!tracks.ways[way].has_strips
+            || tracks.strips[way].iter().all(|strip| {
+                sight.walkers[strip.crossing as usize] == 0
+                    && (siren || sight.waiting[strip.crossing as usize] == 0)
+            }))
         && ((has_room(scene, way, vehicle) && !lets_out(scene, vehicle)) || may_pass(scene, vehicle))
         && part.finds_gap(scene, vehicle, (distance, rank), overtaken)
+}
+
+/// Whether nobody is on the ways near a way whom a vehicle would touch there, as the long touch everybody and everybody the long.
+fn has_tight_ways_free(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
+    let Junctions { holders, long_holders, .. } = scene.junctions;
+    let held = if vehicle.is_long() { holders } else { long_holders };
+    scene.tracks.tight[way].iter().all(|other| held.get(*other as usize) == 0)
 }
 
 /// Whether a vehicle has obeyed a stop sign: hardly anybody stands quite still there, least who turns round the corner.

@@ -353,7 +353,9 @@ impl Part {
         let is_held = |other| scene.junctions.is_held(other);
         for conflict in tracks.conflicts_held(way, &self.work.held, is_held) {
             let to_zone = conflict.own.enter() - front;
-            if to_zone > horizon(vehicle.v) {
+            // Who is in the way of others already goes on, but for whom he follows.
+            let is_in = to_zone <= -0.5;
+            if to_zone > horizon(vehicle.v) || (is_in && !conflict.merges) {
                 continue;
             }
             let speed = tracks.ways[conflict.way as usize].speed;
@@ -366,7 +368,7 @@ impl Part {
                 if conflict.merges && rear >= conflict.other.enter() {
                     let ends = (tracks.ways[way].length, conflict.other_length(scene));
                     mind(Precedence::Follow { gap: ends.0 - front - (ends.1 - rear), speed: holder.v });
-                } else if rear < conflict.other.passed() && to_zone > -0.5 {
+                } else if rear < conflict.other.passed() && !is_in {
                     // So that it is gone when one could no longer stop for it.
                     let sure = vehicle.v * (vehicle.v / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
                     let time = holder.clears(conflict, speed);

@@ -123,15 +123,17 @@ impl Part {
         [leader, ghost].into_iter().flatten().chain(leaver).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Those whose front has left a lane by a junction and whose rear has not: where that is, from the end of the lane, m and
-    /// negative; and their speeds.
+    /// Those whose front has left a lane by a junction and whose rear has not, while accelerations are computed: where that is, from the
+    /// end of the lane, m and negative; and their speeds.
     pub(in crate::vehicle) fn leavers(
         &self,
         scene: &Scene<'_>,
         lane: Track,
     ) -> impl Iterator<Item = (f64, f64)> {
-        // Who is on a way holds it.
-        let ways = scene.tracks.exits(lane).iter().map(|(way, _)| *way);
+        // Who is on a way holds it, and mostly nobody does.
+        let is_left = self.work.held.leads_from(scene.tracks.layout.local(lane));
+        let exits = if is_left { scene.tracks.exits(lane) } else { &[] };
+        let ways = exits.iter().map(|(way, _)| *way);
         let held = ways.filter(|way| scene.junctions.is_held(*way));
         let on_ways = held.flat_map(move |way| self.on_way(scene, way));
         on_ways.filter(|other| other.1 < 0.0).map(|(_, rear, v)| (rear, v))

@@ -48,6 +48,15 @@ impl Span {
     }
 }
 
+/// Where one is who goes from track to track of those with vehicles: they are those that had some when one came to the first of their
+/// word of bits, so that nothing is looked up again for each of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Cursor {
+    /// Words that one has come to, and what is left of the last of them.
+    words: usize,
+    bits: u64,
+}
+
 /// The vehicles of a part by the numbers of its tracks.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(from = "Vec<Vec<(Vehicle, Path)>>", into = "Vec<Vec<(Vehicle, Path)>>")]
@@ -103,41 +112,49 @@ impl Slabs {
         (&mut self.vehicles[range.clone()], &mut self.paths[range])
     }
 
-    /// Whether a track has vehicles.
-    #[inline]
-    pub(crate) fn is_occupied(&self, track: usize) -> bool {
-        self.occupied[track / 64] >> (track % 64) & 1 == 1
+    /// One who goes from track to track of those with vehicles, ascending, from a number on.
+    pub(crate) fn cursor(&self, track: usize) -> Cursor {
+        let bits = self.occupied.get(track / 64).map_or(0, |bits| bits & u64::MAX << (track % 64));
+        Cursor { words: track / 64 + 1, bits }
     }
 
-    /// The first track with vehicles, from a number on.
+    /// The next track with vehicles.
     #[inline]
-    pub(crate) fn occupied_from(&self, track: usize) -> Option<usize> {
-        let mut word = track / 64;
-        let mut bits = self.occupied.get(word)? & (u64::MAX << (track % 64));
-        while bits == 0 {
-            word += 1;
-            bits = *self.occupied.get(word)?;
-        }
-        Some(word * 64 + bits.trailing_zeros() as usize)
+    pub(crate) fn next(&self, at: &mut Cursor) -> Option<usize> {
+        self.next_seeing(at, |_, _| {})
     }
 
-    /// The same for who goes on from track to track and looks at the vehicles of each: those of some dozens are read one right after
-    /// the other before the first of them is looked at, so that processors wait for many such places of the memory at once.
+    /// The same for who looks at the vehicles of each: those of some dozens of tracks are read one right after the other before the
+    /// first of them is looked at, so that processors wait for many such places of the memory at once.
     #[inline]
-    pub(crate) fn next_at_hand(&self, track: usize) -> Option<usize> {
-        let next = self.occupied_from(track)?;
-        if track.is_multiple_of(64) || track / 64 != next / 64 {
-            self.touch(next / 64, self.occupied[next / 64]);
+    pub(crate) fn next_at_hand(&self, at: &mut Cursor) -> Option<usize> {
+        self.next_seeing(at, |word, bits| self.touch(word, bits))
+    }
+
+    #[inline]
+    fn next_seeing(&self, at: &mut Cursor, see: impl Fn(usize, u64)) -> Option<usize> {
+        while at.bits == 0 {
+            at.bits = *self.occupied.get(at.words)?;
+            see(at.words, at.bits);
+            at.words += 1;
         }
-        Some(next)
+        let track = at.words * 64 - 64 + at.bits.trailing_zeros() as usize;
+        at.bits &= at.bits - 1;
+        Some(track)
+    }
+
+    /// Which of 64 tracks have vehicles, a bit each.
+    #[inline]
+    pub(crate) fn word(&self, word: usize) -> u64 {
+        self.occupied[word]
     }
 
     /// Reads the first and the last vehicle of some of the tracks of a word of bits that have any.
     pub(crate) fn touch(&self, word: usize, some: u64) {
         let (mut bits, mut all) = (self.occupied.get(word).map_or(0, |bits| bits & some), 0);
         while bits != 0 {
-            let range = self.spans[word * 64 + bits.trailing_zeros() as usize].range();
-            all ^= self.vehicles[range.start].id ^ self.vehicles[range.end - 1].id;
+            let queue = self.queue(word * 64 + bits.trailing_zeros() as usize);
+            all ^= queue.first().map_or(0, |first| first.id) ^ queue.last().map_or(0, |last| last.id);
             bits &= bits - 1;
         }
         black_box(all);
@@ -146,12 +163,8 @@ impl Slabs {
     /// The tracks with vehicles, ascending.
     #[inline]
     pub(crate) fn occupied(&self) -> impl Iterator<Item = usize> {
-        let mut from = 0;
-        std::iter::from_fn(move || {
-            let track = self.occupied_from(from)?;
-            from = track + 1;
-            Some(track)
-        })
+        let mut at = Cursor::default();
+        std::iter::from_fn(move || self.next(&mut at))
     }
 
     /// Puts a vehicle at the back of a track.

@@ -43,6 +43,8 @@ pub(crate) struct PartLayout {
     pub(crate) measures: Vec<Measure>,
     /// How many of them are lanes.
     pub(crate) lanes: usize,
+    /// Of each way, the number in the part of the lane from which it leads.
+    pub(crate) from: Vec<u32>,
     /// The lanes of each intersection, as ranges of their numbers in the part, ascending.
     pub(crate) junctions: Vec<Range<u32>>,
 }
@@ -88,9 +90,10 @@ impl Layout {
         layout
     }
 
-    /// Takes up length and speed of each track, m and m/s.
+    /// Takes up length and speed of each track, m and m/s, and from where ways lead.
     pub(super) fn measure(&mut self, network: &RoadNetwork, length: &[f64], speed: &[f64]) {
-        for part in &mut self.parts {
+        let Self { places, parts } = self;
+        for part in parts {
             let measure = |track: &Track| {
                 let track = *track as usize;
                 let way = track.checked_sub(network.lanes.len()).map(|way| &network.connections[way]);
@@ -98,6 +101,8 @@ impl Layout {
                 Measure { length: length[track], limit, bend: speed[track] }
             };
             part.measures = part.tracks.iter().map(measure).collect();
+            let ways = part.tracks[part.lanes..].iter().map(|way| *way as usize - network.lanes.len());
+            part.from = ways.map(|way| places[network.connections[way].from.index()].local).collect();
         }
     }
 

@@ -4,7 +4,7 @@ use std::iter;
 
 use super::Track;
 use super::conflicts::Conflict;
-use super::layout::Layout;
+use super::layout::{Layout, PartLayout};
 
 /// The ways that meet one: from a number among the ways of its part on, a bit each, as many as it has conflicts, in the same order.
 /// None where they are too far from one another, as in very wide junctions: there one asks for each of them.
@@ -33,6 +33,12 @@ impl Meeting {
         Self { first: first - lanes_here, ways }
     }
 
+    /// Whether somebody may hold one of them.
+    #[inline]
+    pub(super) fn is_met(self, held: &Held) -> bool {
+        self.ways == 0 || self.ways & held.from(self.first) != 0
+    }
+
     /// Those conflicts of a way, which are `all` that it has, whose ways somebody holds.
     #[inline]
     pub(super) fn held<'a>(
@@ -53,26 +59,55 @@ impl Meeting {
     }
 }
 
-/// Ways that somebody holds, of those of a part, a bit each.
+/// Ways that somebody holds, of those of a part, and the lanes from which one or several of them lead, a bit each.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Held(Vec<u64>);
+pub(crate) struct Held {
+    ways: Vec<u64>,
+    one: Vec<u64>,
+    several: Vec<u64>,
+}
 
 impl Held {
     /// Looks which of the ways of a part somebody holds.
-    pub(in crate::vehicle) fn look(&mut self, ways: &[Track], is_held: impl Fn(Track) -> bool) {
+    pub(in crate::vehicle) fn look(&mut self, layout: &PartLayout, is_held: impl Fn(Track) -> bool) {
         let word =
             |ways: &[Track]| ways.iter().rev().fold(0, |word: u64, way| word << 1 | u64::from(is_held(*way)));
-        self.0.clear();
-        self.0.extend(ways.chunks(64).map(word));
+        self.ways.clear();
+        self.ways.extend(layout.tracks[layout.lanes..].chunks(64).map(word));
+        for lanes in [&mut self.one, &mut self.several] {
+            lanes.clear();
+            lanes.resize(layout.lanes.div_ceil(64), 0);
+        }
+        for (held, from) in self.ways.iter().zip(layout.from.chunks(64)) {
+            let mut bits = *held;
+            while bits != 0 {
+                let lane = from[bits.trailing_zeros() as usize] as usize;
+                bits &= bits - 1;
+                self.several[lane / 64] |= self.one[lane / 64] & 1 << (lane % 64);
+                self.one[lane / 64] |= 1 << (lane % 64);
+            }
+        }
         // So that 64 ways can be asked for from each of them on.
-        self.0.push(0);
+        self.ways.push(0);
+    }
+
+    /// Whether somebody holds a way from a lane, by its number in the part.
+    #[inline]
+    pub(in crate::vehicle) fn leads_from(&self, lane: usize) -> bool {
+        self.one[lane / 64] >> (lane % 64) & 1 == 1
+    }
+
+    /// Whether several ways from a lane are held.
+    #[inline]
+    pub(in crate::vehicle) fn parts_from(&self, lane: usize) -> bool {
+        self.several[lane / 64] >> (lane % 64) & 1 == 1
     }
 
     /// Those of 64 ways, from a number on.
     #[inline]
     fn from(&self, first: u32) -> u64 {
         let (word, shift) = (first as usize / 64, first % 64);
-        match self.0.get(word..word + 2) {
+        match self.ways.get(word..word + 2) {
             Some([low, high]) => low >> shift | high << 1 << (63 - shift),
             _ => 0,
         }
@@ -99,7 +134,11 @@ mod tests {
         for every in [1, 2, 3, 7] {
             let is_held = |way: u32| way.is_multiple_of(every);
             for layout in &tracks.layout.parts {
-                held.look(&layout.tracks[layout.lanes..], |track| is_held(track - lanes));
+                held.look(layout, |track| is_held(track - lanes));
+                for (local, lane) in layout.tracks[..layout.lanes].iter().enumerate() {
+                    let count = tracks.exits(*lane).iter().filter(|(way, _)| is_held(*way)).count();
+                    assert_eq!((held.leads_from(local), held.parts_from(local)), (count > 0, count > 1));
+                }
                 for way in layout.tracks[layout.lanes..].iter().map(|track| (track - lanes) as usize) {
                     let all = &tracks.conflicts[way];
                     let expected: Vec<&Conflict> = all.iter().filter(|other| is_held(other.way)).collect();

@@ -92,6 +92,8 @@ pub(crate) struct Way {
     /// Whether it leads over crossings, and whether nobody meets it or crosses it.
     pub(super) has_strips: bool,
     is_alone: bool,
+    /// Whether long vehicles share it with nobody on some other way.
+    pub(super) is_tight: bool,
     /// Its number in its part, and where the lane is kept to which it leads.
     pub(super) local: u32,
     pub(super) there: Place,
@@ -133,6 +135,8 @@ pub(crate) struct Tracks {
     pub(crate) narrow: Lists<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
+    /// How wide each lane is, m: whoever changes lanes asks for it in each step.
+    width: Vec<f64>,
     /// The lane beside each lane on which the others come, on streets of one lane each way, or [`NONE`].
     pub(super) opposite: Vec<Track>,
     /// What each lane is for.
@@ -184,12 +188,13 @@ impl Tracks {
             let track = network.lanes.len() + index;
             let ends = (layout.local(track as Track), layout.place(network.connections[index].to.0));
             let has_strips = !strips[index].is_empty();
-            let is_met =
-                !conflicts[index].is_empty() || !tight[index].is_empty() || !narrow[index].is_empty();
+            let is_tight = !tight[index].is_empty();
+            let is_met = !conflicts[index].is_empty() || is_tight || !narrow[index].is_empty();
             let meeting = Meeting::new(&layout, network.lanes.len(), index, &conflicts[index]);
             Way {
                 has_strips,
                 is_alone: !has_strips && !is_met,
+                is_tight,
                 meeting,
                 ..way(&network, index, ends, (length[track], speed[track]))
             }
@@ -209,6 +214,7 @@ impl Tracks {
             speed,
             kerb: kerb::places(&network, &beside),
             beside,
+            width: network.lanes.iter().map(|lane| lane.width).collect(),
             opposite: lanes::opposite(&network),
             kinds: network.lanes.iter().map(|lane| lane.kind).collect(),
             leads_on: onward::lead_on(&network),
@@ -264,12 +270,15 @@ impl Tracks {
         held: &Held,
         is_held: impl Fn(u32) -> bool,
     ) -> impl Iterator<Item = &Conflict> {
-        self.ways[way].meeting.held(&self.conflicts[way], held, is_held)
+        let meeting = self.ways[way].meeting;
+        // Mostly nobody holds any of them, and no list is looked up.
+        let all = if meeting.is_met(held) { &self.conflicts[way] } else { &[] };
+        meeting.held(all, held, is_held)
     }
 
     /// Distance between the middles of two lanes side by side, m.
     pub(crate) fn apart(&self, a: Track, b: Track) -> f64 {
-        (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
+        (self.width[a as usize] + self.width[b as usize]) * 0.5
     }
 
     /// The way from a lane to an open lane of a leg, if one leads there; best to one on which the kind may drive, and from which
@@ -372,6 +381,7 @@ fn way(
         turns_by_gaps: connection.turn != Turn::Straight && !connection.yields_to.is_empty(),
         has_strips: false,
         is_alone: true,
+        is_tight: false,
         local: local as u32,
         there,
         length,

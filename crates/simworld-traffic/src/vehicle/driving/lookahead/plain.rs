@@ -3,7 +3,7 @@
 
 use super::super::following::Ahead;
 use super::super::idm::Driver;
-use super::{LONGEST, Lane, Vehicle, horizon};
+use super::{CHANGES, LONGEST, Lane, Vehicle, horizon};
 use crate::vehicle::manager::{NONE, STANDING};
 
 /// What is ahead of the first of a lane: nobody, ever.
@@ -45,11 +45,11 @@ impl Lane<'_> {
         let v = vehicle.v;
         // Whose front has left the lane and whose rear has not is looked for by the first alone.
         let beyond = if leader.is_none() { LONGEST } else { 0.0 };
+        let (is_lost, beyond) = if vehicle.next == NONE { (true, CHANGES) } else { (false, beyond) };
         let leader = leader.unwrap_or(&NOBODY);
         let is_plain = driver.is_perfect
             & (self.end - vehicle.s > horizon(v) + beyond)
-            & (vehicle.next != NONE)
-            & (vehicle.holding != vehicle.next)
+            & (is_lost | (vehicle.holding != vehicle.next))
             & (vehicle.shift == 0.0)
             & (vehicle.halt == f32::INFINITY)
             & (leader.halt == f32::INFINITY);
