@@ -52,7 +52,7 @@ impl CityEditor {
         let changed = Changed { roads: [&roads, &roads_now], moved: &moved, near: &self.index.roads };
         let (network, [sides, sides_now]) =
             both_faces(std::sync::Arc::make_mut(&mut self.city.network), network, &changed)?;
-        let before = self.before(roads, sides);
+        let before = self.before(&roads, &sides);
         let plan = plan.put_on(&mut self.city.plan)?;
         let network = self.network_mut().put(network)?;
         let (buildings, elements) = self.renumber(&moved);
@@ -77,14 +77,14 @@ impl CityEditor {
         }
     }
 
-    fn before(&self, roads: BTreeSet<usize>, sides: BTreeSet<usize>) -> Result<Before, EditError> {
-        let faces = Faces::of(&self.city, &self.index.roads, &sides)?;
+    fn before(&self, roads: &BTreeSet<usize>, sides: &BTreeSet<usize>) -> Result<Before, EditError> {
+        let faces = Faces::of(&self.city, &self.index.roads, sides)?;
         Ok(Before {
-            buildings: self.generated_buildings(&sides).collect(),
-            elements: self.generated_elements(&sides).collect(),
-            given: self.given_at(&roads),
+            buildings: self.generated_buildings(sides).collect(),
+            elements: self.generated_elements(sides).collect(),
+            given: self.given_at(roads),
             frontage: faces.land.frontage,
-            land: faces.land_of_roads(&roads),
+            land: faces.land_of_roads(roads),
         })
     }
 

@@ -129,7 +129,9 @@ pub(super) fn is_contested(
     }
     let [others, own] = wishes.map(|setter| setter.wishes.grounds);
     let mut taken = Occupancy::with_capacity(others.len());
-    others.iter().for_each(|ground| taken.add(ground));
+    for ground in &others {
+        taken.add(ground);
+    }
     own.iter().any(|ground| !taken.is_free(ground))
 }
 
