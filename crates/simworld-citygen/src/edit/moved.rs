@@ -1,7 +1,7 @@
 //! Roads that only got another number: the last ones take those of what is gone. What stands at them stays, and is filed
 //! under the new number.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use simworld_core::geometry::bounds;
 use simworld_core::id::{LaneId, RoadId, SidewalkId};
@@ -22,13 +22,9 @@ use crate::zoning::Zoning;
 /// What stands along a sidewalk may be in the way of what stands along another that is as near as this, m.
 const IN_THE_WAY: f64 = 12.0;
 
-/// The roads of a change that only got another number.
+/// The roads of a change that only got another number: what they had before it, and what they have after it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Moved {
-    /// Their numbers after the change by those before it, and the other way round.
-    now: BTreeMap<usize, usize>,
-    once: BTreeMap<usize, usize>,
-}
+pub(super) struct Moved(Vec<[usize; 2]>);
 
 impl Moved {
     /// Those of a change that is done; `back` takes it back.
@@ -37,29 +33,22 @@ impl Moved {
         let count = network.roads.len();
         let numbers = || back.roads.set.iter().map(|(road, _)| *road as usize);
         for once in numbers().filter(|road| *road >= count) {
-            let is_it =
-                |now: &usize| !moved.once.contains_key(now) && keeps_its_course(back, network, (once, *now));
-            if let Some(now) = numbers().filter(|road| *road < count).find(is_it) {
-                moved.note(once, now);
-            }
+            let is_it = |now: &usize| !moved.has(1, *now) && keeps_its_course(back, network, (once, *now));
+            let now = numbers().filter(|road| *road < count).find(is_it);
+            moved.0.extend(now.map(|now| [once, now]));
         }
         moved
     }
 
-    fn note(&mut self, once: usize, now: usize) {
-        self.now.insert(once, now);
-        self.once.insert(now, once);
+    /// Whether one of them has a number at one time, 0 before the change and 1 after it.
+    fn has(&self, time: usize, road: usize) -> bool {
+        self.0.iter().any(|numbers| numbers[time] == road)
     }
 
-    /// The number of a road at one time, 0 before the change and 1 after it, by that at the other; for one that did not change.
+    /// The number of a road at one time by that at the other; for one that did not change.
     pub(super) fn number_at(&self, time: usize, other: usize) -> usize {
-        let numbers = if time == 0 { &self.once } else { &self.now };
-        numbers.get(&other).copied().unwrap_or(other)
-    }
-
-    /// The roads by their numbers before the change and after it.
-    fn iter(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.now.iter().map(|(once, now)| (*once, *now))
+        let found = self.0.iter().find(|numbers| numbers[1 - time] == other);
+        found.map_or(other, |numbers| numbers[time])
     }
 }
 
@@ -74,41 +63,39 @@ impl CityEditor {
     pub(super) fn altered(&self, back: &NetworkPatch) -> Altered {
         let network = &self.city.network;
         let all = Moved::of(back, network);
-        let is_other = |road: &usize| !keeps_its_course(back, network, (*road, *road));
-        let once = back.roads.set.iter().map(|(road, _)| *road);
-        let now = now_at(&back.roads, network.roads.len());
-        let altered = |roads: &mut dyn Iterator<Item = u32>| -> BTreeSet<usize> {
-            roads.map(|road| road as usize).filter(is_other).collect()
+        let once: Vec<u32> = back.roads.set.iter().map(|(road, _)| *road).collect();
+        let mut roads = [once, now_at(&back.roads, network.roads.len())].map(|roads| {
+            let roads = roads.into_iter().map(|road| road as usize);
+            roads.filter(|road| !keeps_its_course(back, network, (*road, *road))).collect::<BTreeSet<usize>>()
+        });
+        for (time, roads) in roads.iter_mut().enumerate() {
+            roads.retain(|road| !all.has(time, *road));
+        }
+        let is_reordered = |numbers: &[usize; 2]| {
+            self.leads_open_land(numbers[1]) || self.is_contested(numbers[1], &roads[0], &all)
         };
-        let mut roads = [altered(&mut once.into_iter()), altered(&mut now.into_iter())];
-        for (once, now) in all.iter() {
-            roads[0].remove(&once);
-            roads[1].remove(&now);
+        let (reordered, moved): (Vec<_>, Vec<_>) = all.0.iter().copied().partition(is_reordered);
+        for (time, roads) in roads.iter_mut().enumerate() {
+            roads.extend(reordered.iter().map(|numbers| numbers[time]));
         }
-        let mut moved = Moved::default();
-        for (once, now) in all.iter() {
-            if self.is_in_another_order(now, &roads[0], &all) {
-                roads[0].insert(once);
-                roads[1].insert(now);
-            } else {
-                moved.note(once, now);
-            }
-        }
-        Altered { roads, moved }
+        Altered { roads, moved: Moved(moved) }
     }
 
-    /// Whether a road that got another number, this one, may change what is built: open land is divided in the order of the
-    /// first roads around it, and of things behind two sidewalks that want the same place the one at the first road has it.
-    fn is_in_another_order(&self, road: usize, altered: &BTreeSet<usize>, moved: &Moved) -> bool {
+    /// Whether a road is the first round open land: that is divided in the order of those.
+    fn leads_open_land(&self, road: usize) -> bool {
         let network = &self.city.network;
         let leads = |side: &usize| sides_round(network, [*side]).first() == Some(side);
         let is_open = |side: &usize| {
             let faces = Block::of_faces(network, |road, on| side_number(road, on) == *side);
             faces.iter().any(|block| block.area.is_none())
         };
-        if [2 * road, 2 * road + 1].iter().any(|side| leads(side) && is_open(side)) {
-            return true;
-        }
+        [2 * road, 2 * road + 1].iter().any(|side| leads(side) && is_open(side))
+    }
+
+    /// Whether something behind the sidewalks of a road that got another number, this one, would like to stand where something of a
+    /// road near by would: that at the first road has the place.
+    fn is_contested(&self, road: usize, altered: &BTreeSet<usize>, moved: &Moved) -> bool {
+        let network = &self.city.network;
         let Some(around) = bounds(&network.roads[road].centerline) else { return true };
         let around = inflated(around, IN_THE_WAY);
         let near = self.index.roads.near(around).into_iter().filter(|road| !altered.contains(road));
@@ -144,12 +131,12 @@ impl CityEditor {
         let (index, city) = (&self.index, &mut self.city);
         let mut buildings = Book::open(&mut city.buildings);
         let mut elements = Book::open(&mut city.elements);
-        for (once, now) in moved.iter() {
-            let road = RoadId::from_index(now);
-            for number in index.buildings_at(once) {
+        for [once, now] in &moved.0 {
+            let road = RoadId::from_index(*now);
+            for number in index.buildings_at(*once) {
                 buildings.edit(*number as usize).road = road;
             }
-            for number in index.elements_at(once) {
+            for number in index.elements_at(*once) {
                 let along = &mut elements.edit(*number as usize).along;
                 let side = along.as_street().map(|(_, side)| side);
                 *along = side.map_or(*along, |side| Border::street(road, side));
@@ -206,9 +193,9 @@ mod tests {
             let Altered { roads: [once, now], moved } = editor.altered(&changed.network);
             // The road that is gone, those that met it, and no others.
             assert!(once.contains(&gone) && once.len() <= 10, "{gone}: {once:?}");
-            if moved.now.contains_key(&last) {
+            if moved.has(0, last) {
                 left_alone += 1;
-                assert!(!once.contains(&last) && !now.contains(&moved.now[&last]), "{gone}");
+                assert!(!once.contains(&last) && !now.contains(&moved.number_at(1, last)), "{gone}");
                 assert_eq!(moved.number_at(0, moved.number_at(1, last)), last);
             }
             changed.plan.put_on(&mut editor.city.plan).expect("it was taken from there");
