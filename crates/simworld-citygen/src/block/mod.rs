@@ -41,6 +41,16 @@ impl Border {
         Self(2 * road.index() as u32 + u32::from(side == Side::Right))
     }
 
+    /// The sidewalk on a side by its number, see [`Block::of_sides`].
+    pub(crate) fn of_side(side: usize) -> Self {
+        Self(side as u32)
+    }
+
+    /// The number of the side of the road, as in [`Block::of_sides`], where it is a sidewalk.
+    pub(crate) fn side(self) -> Option<usize> {
+        self.is_street().then_some(self.0 as usize)
+    }
+
     /// The road and its side, where it is a sidewalk.
     pub fn as_street(self) -> Option<(RoadId, Side)> {
         let side = if self.0 & 1 == 0 { Side::Left } else { Side::Right };
@@ -66,12 +76,13 @@ pub struct Block {
 impl Block {
     /// The blocks of a network, in the order of the roads that bound them.
     pub fn of_network(network: &RoadNetwork) -> Vec<Self> {
-        Self::of_faces(network, |_, _| true)
+        Self::of_sides(network, 0..2 * network.roads.len())
     }
 
-    /// The blocks of a network that some of the sides of its roads bound, in the order of those roads.
-    pub(crate) fn of_faces(network: &RoadNetwork, counts: impl Fn(RoadId, Side) -> bool) -> Vec<Self> {
-        let boundaries = trace::boundaries(network, counts);
+    /// The blocks of a network that some of the sides of its roads bound, in the order of those roads: of ascending sides, where side 2i is the
+    /// left of road i and side 2i + 1 its right.
+    pub(crate) fn of_sides(network: &RoadNetwork, sides: impl IntoIterator<Item = usize>) -> Vec<Self> {
+        let boundaries = trace::boundaries(network, sides);
         boundaries.par_iter().with_min_len(64).filter_map(Self::within).collect()
     }
 

@@ -27,14 +27,13 @@ pub(super) struct Piece {
     pub(super) offset: f64,
 }
 
-/// The boundary of every face that some of the sides of roads bound, each once, in the order of the first of them.
-pub(super) fn boundaries(network: &RoadNetwork, counts: impl Fn(RoadId, Side) -> bool) -> Vec<Boundary> {
+/// The boundary of every face that some sides of roads bound, each once, in the order of the first of them.
+pub(super) fn boundaries(network: &RoadNetwork, sides: impl IntoIterator<Item = usize>) -> Vec<Boundary> {
     let tracer = Tracer { network };
     let mut seen = vec![false; network.roads.len() * 2];
     let mut found = Vec::new();
-    for start in 0..seen.len() {
-        let side = if is_forward(start) { Side::Left } else { Side::Right };
-        if seen[start] || !counts(RoadId::from_index(start / 2), side) {
+    for start in sides {
+        if seen[start] {
             continue;
         }
         let mut boundary = Boundary::with_capacity(USUAL_POINTS);

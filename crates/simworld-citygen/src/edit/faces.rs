@@ -8,9 +8,10 @@ use simworld_core::net::{PlanPart, RoadNetwork, Side};
 
 use super::EditError;
 use super::cells::{Cells, inflated};
+use super::scope::Scope;
 use super::streets::with_neighbours;
 use crate::City;
-use crate::block::{Block, Border};
+use crate::block::Border;
 use crate::building::{self, Building};
 use crate::element::{self, Element, Extent, Setting};
 use crate::lot::Land;
@@ -49,9 +50,9 @@ pub(super) struct Given<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// The faces, divided into lots. `sides` are all those round the faces.
-    pub(super) fn of(city: &'a City, near: &Cells, sides: &'a BTreeSet<usize>) -> Result<Self, EditError> {
-        let own: BTreeSet<usize> = sides.iter().map(|side| side / 2).collect();
+    /// The faces of a scope, divided into lots.
+    pub(super) fn of(city: &'a City, near: &Cells, scope: &'a Scope) -> Result<Self, EditError> {
+        let own: BTreeSet<usize> = scope.all.iter().map(|side| side / 2).collect();
         let beside = |road: &usize| bounds(&city.network.roads[*road].centerline);
         let around = own.iter().filter_map(beside).map(|bounds| inflated(bounds, NEAR));
         let mut streets = near.near_any(around);
@@ -59,7 +60,8 @@ impl<'a> Faces<'a> {
         streets.extend(with_neighbours(&city.network, with_neighbours(&city.network, own)));
         let part = city.plan.part(streets);
         let network = RoadNetwork::derive(&part.plan, &city.config.network)?;
-        let flags = part.streets.iter().map(|street| [0, 1].map(|side| sides.contains(&(2 * street + side))));
+        let flag = |side: usize| scope.furnished.contains(&side);
+        let flags = part.streets.iter().map(|street| [0, 1].map(|side| flag(2 * street + side)));
         let extent = Extent { streets: part.streets.len(), sides: flags.collect() };
         let seed = city.provenance.seed;
         let zoning = Zoning::new(&city.config.zoning, seed);
@@ -67,10 +69,16 @@ impl<'a> Faces<'a> {
         let is_place = city.provenance.origin.is_some();
         let is_land = |road: RoadId| !is_place || network.roads[road.index()].level == 0;
         let taken = Occupancy::of_roads_where(&network, is_land);
-        let mut blocks = Block::of_network(&network);
-        blocks.retain(|block| lies_within(block, &extent));
-        let land = Land::of_blocks(blocks, &zoning, &city.config.lots, seed, &taken);
-        Ok(Self { city, sides, part, extent, network, zoning, land, taken })
+        let is_fitted = |block, edge| scope.fitted.contains(&(block, edge));
+        let blocks = scope.outskirts.blocks.clone();
+        let land = Land::of_fronts(blocks, &zoning, &city.config.lots, seed, (&taken, &is_fitted));
+        let land = land.in_part(|border| match border.as_street() {
+            Some((road, side)) => part
+                .street(road.index())
+                .map_or(Border::LAND, |road| Border::street(RoadId::from_index(road), side)),
+            None => border,
+        });
+        Ok(Self { city, sides: &scope.sides, part, extent, network, zoning, land, taken })
     }
 
     /// The land of some of the roads, in the numbers of the city.
@@ -132,6 +140,7 @@ impl<'a> Faces<'a> {
                 element.along = Border::street(self.whole(road), side);
             }
         }
+        buildings.retain(|building| self.sides.contains(&side_number(building.road, building.side)));
         // Cars are parked street by street, on both sides.
         elements.retain(|element| {
             element
@@ -141,10 +150,4 @@ impl<'a> Faces<'a> {
         });
         (buildings, elements)
     }
-}
-
-/// Whether a block is one of the faces: all sidewalks round it bound them, and there is one.
-fn lies_within(block: &Block, extent: &Extent) -> bool {
-    let mut streets = block.borders.iter().copied().filter_map(Border::as_street).peekable();
-    streets.peek().is_some() && streets.all(|(road, side)| extent.has_side(road, side))
 }

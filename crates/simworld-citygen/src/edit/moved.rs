@@ -10,17 +10,14 @@ use simworld_core::patch::{ArrayPatch, Book};
 
 use super::CityEditor;
 use super::cells::inflated;
-use super::faces::side_number;
 use super::index::now_at;
+use super::outskirts::IN_THE_WAY;
 use super::streets::with_neighbours;
 use crate::block::{Block, Border, sides_round};
 use crate::building::Building;
 use crate::element::{self, Element, Extent, Setting};
 use crate::lot::Land;
 use crate::zoning::Zoning;
-
-/// What stands along a sidewalk may be in the way of what stands along another that is as near as this, m.
-const IN_THE_WAY: f64 = 12.0;
 
 /// The roads of a change that only got another number: what they had before it, and what they have after it.
 #[derive(Clone, Debug, Default)]
@@ -86,7 +83,7 @@ impl CityEditor {
         let network = &self.city.network;
         let leads = |side: &usize| sides_round(network, [*side]).first() == Some(side);
         let is_open = |side: &usize| {
-            let faces = Block::of_faces(network, |road, on| side_number(road, on) == *side);
+            let faces = Block::of_sides(network, [*side]);
             faces.iter().any(|block| block.area.is_none())
         };
         [2 * road, 2 * road + 1].iter().any(|side| leads(side) && is_open(side))

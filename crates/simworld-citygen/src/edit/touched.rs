@@ -3,11 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::geometry::{Point2, bounds};
+use simworld_core::net::NetworkPatch;
 
-use super::cells::inflated;
+use super::cells::{Bounds, inflated};
 use super::faces::{Faces, Given, place_key, side_number};
 use super::moved::Altered;
+use super::outskirts::Outskirts;
 use super::patch::CityPatch;
+use super::scope::{Change, Scope};
 use super::sides::{Changed, both_faces};
 use super::streets::StreetsChanged;
 use super::{CityEditor, EditError};
@@ -46,20 +49,19 @@ impl CityEditor {
     /// Repairs what stands at streets that changed; gives the patch that takes all of it back.
     pub(super) fn follow_streets(&mut self, changed: StreetsChanged) -> Result<CityPatch, EditError> {
         let StreetsChanged { plan, network } = changed;
-        let Altered { roads: [roads, roads_now], moved } = self.altered(&network);
+        let altered = self.altered(&network);
         // Back to the streets as they were, for a look at their faces.
         let plan = plan.put_on(&mut self.city.plan)?;
-        let changed = Changed { roads: [&roads, &roads_now], moved: &moved, near: &self.index.roads };
-        let (network, [sides, sides_now]) =
-            both_faces(std::sync::Arc::make_mut(&mut self.city.network), network, &changed)?;
-        let before = self.before(&roads, &sides);
+        let (network, [scope, scope_now]) = self.scopes(network, &altered)?;
+        let [roads, roads_now] = &altered.roads;
+        let before = self.before(roads, &scope);
         let plan = plan.put_on(&mut self.city.plan)?;
         let network = self.network_mut().put(network)?;
-        let (buildings, elements) = self.renumber(&moved);
+        let (buildings, elements) = self.renumber(&altered.moved);
         let mut patch = CityPatch { plan, network, buildings, elements, frontage: self.city.frontage };
         // Roads first, for they are looked for by place.
         self.index.follow(&self.city, &patch);
-        let after = before.and_then(|before| Ok((self.after(&before, &roads_now, &sides_now)?, before)));
+        let after = before.and_then(|before| Ok((self.after(&before, roads_now, &scope_now)?, before)));
         match after {
             Ok((after, before)) => {
                 self.city.frontage += after.frontage - before.frontage;
@@ -77,11 +79,36 @@ impl CityEditor {
         }
     }
 
-    fn before(&self, roads: &BTreeSet<usize>, sides: &BTreeSet<usize>) -> Result<Before, EditError> {
-        let faces = Faces::of(&self.city, &self.index.roads, sides)?;
+    /// What of the land a change of the roads, which has been taken back, has made anew, before and after; leaves the roads as they were.
+    fn scopes(
+        &mut self,
+        network: NetworkPatch,
+        altered: &Altered,
+    ) -> Result<(NetworkPatch, [Scope; 2]), EditError> {
+        let [roads, roads_now] = &altered.roads;
+        let changed = Changed { roads: [roads, roads_now], moved: &altered.moved, near: &self.index.roads };
+        let roads_of_city = std::sync::Arc::make_mut(&mut self.city.network);
+        let (network, [sides, sides_now]) = both_faces(roads_of_city, network, &changed)?;
+        let mut courses = self.courses(roads);
+        let faces = Outskirts::of(&self.city, &sides);
+        let network = self.network_mut().put(network)?;
+        courses.extend(self.courses(roads_now));
+        let faces_now = Outskirts::of(&self.city, &sides_now);
+        let network = self.network_mut().put(network)?;
+        let change = Change { faces: [faces, faces_now], altered, courses };
+        Ok((network, change.scopes()))
+    }
+
+    /// Rectangles round the courses of some roads.
+    fn courses(&self, roads: &BTreeSet<usize>) -> Vec<Bounds> {
+        roads.iter().filter_map(|road| bounds(&self.city.network.roads[*road].centerline)).collect()
+    }
+
+    fn before(&self, roads: &BTreeSet<usize>, scope: &Scope) -> Result<Before, EditError> {
+        let faces = Faces::of(&self.city, &self.index.roads, scope)?;
         Ok(Before {
-            buildings: self.generated_buildings(sides).collect(),
-            elements: self.generated_elements(sides).collect(),
+            buildings: self.generated_buildings(&scope.sides).collect(),
+            elements: self.generated_elements(&scope.sides).collect(),
             given: self.given_at(roads),
             frontage: faces.land.frontage,
             land: faces.land_of_roads(roads),
@@ -89,14 +116,9 @@ impl CityEditor {
     }
 
     /// Builds on the faces round the roads that changed.
-    fn after(
-        &self,
-        before: &Before,
-        roads: &BTreeSet<usize>,
-        sides: &BTreeSet<usize>,
-    ) -> Result<After, EditError> {
+    fn after(&self, before: &Before, roads: &BTreeSet<usize>, scope: &Scope) -> Result<After, EditError> {
         let city = &self.city;
-        let mut faces = Faces::of(city, &self.index.roads, sides)?;
+        let mut faces = Faces::of(city, &self.index.roads, scope)?;
         let land = faces.land_of_roads(roads);
         // What overlapped a road before may do so again.
         let has_room = |ground: &[Vec<Point2>]| {
@@ -104,7 +126,7 @@ impl CityEditor {
         };
         let mut after = After { frontage: faces.land.frontage, ..After::default() };
         self.set_doors(before, roads, has_room, &mut after);
-        let courses = roads.iter().filter_map(|road| bounds(&city.network.roads[*road].centerline));
+        let courses = self.courses(roads).into_iter();
         let given: BTreeSet<usize> =
             courses.flat_map(|around| self.index.given_near(inflated(around, GIVEN_NEAR))).collect();
         let (stay, gone): (Vec<usize>, Vec<usize>) = given
@@ -113,7 +135,7 @@ impl CityEditor {
         after.elements_gone.extend(gone);
         let moved: BTreeMap<usize, &Building> =
             after.doors.iter().map(|(number, there)| (*number, there)).collect();
-        let round = self.given_round(sides, &before.given);
+        let round = self.given_round(&scope.all, &before.given);
         let round = round.iter().filter(|number| !after.buildings_gone.contains(number));
         let given = Given {
             buildings: round
@@ -121,10 +143,9 @@ impl CityEditor {
                 .collect(),
             elements: stay.into_iter().map(|number| &city.elements[number]).collect(),
         };
-        let uses: BTreeMap<[u64; 2], &Building> = before
-            .buildings
-            .iter()
-            .map(|number| &city.buildings[*number])
+        let present = before.buildings.iter().copied().chain(self.generated_buildings(&scope.all));
+        let uses: BTreeMap<[u64; 2], &Building> = present
+            .map(|number| &city.buildings[number])
             .map(|building| (place_key(building.center), building))
             .collect();
         (after.buildings, after.elements) = faces.build(&given, &uses);
@@ -139,9 +160,8 @@ impl CityEditor {
         has_room: impl Fn(&[Vec<Point2>]) -> bool,
         after: &mut After,
     ) {
-        let courses = roads.iter().filter_map(|road| bounds(&self.city.network.roads[*road].centerline));
         let mut near = before.given.clone();
-        near.extend(courses.flat_map(|around| self.index.buildings_near(around)));
+        near.extend(self.courses(roads).into_iter().flat_map(|around| self.index.buildings_near(around)));
         for number in near.into_iter().filter(|number| self.city.buildings[*number].given) {
             let building = &self.city.buildings[number];
             let is_lost = before.given.contains(&number);
@@ -183,8 +203,10 @@ impl CityEditor {
 
     /// The given buildings near enough to some faces to take room there, and those that lost their roads.
     fn given_round(&self, sides: &BTreeSet<usize>, lost: &BTreeSet<usize>) -> BTreeSet<usize> {
-        let courses = at_roads(sides).filter_map(|road| bounds(&self.city.network.roads[road].centerline));
-        let near = courses.flat_map(|around| self.index.buildings_near(around));
+        let near = self
+            .courses(&at_roads(sides).collect())
+            .into_iter()
+            .flat_map(|around| self.index.buildings_near(around));
         let given = near.filter(|number| self.city.buildings[*number].given);
         given.chain(lost.iter().copied()).collect()
     }

@@ -43,10 +43,8 @@ pub(super) fn plant(
             let area: f64 = greens.iter().map(|green| green.area).sum();
             let mut trees = Vec::with_capacity((area * config.green_trees).min(MOST_POINTS) as usize);
             for green in greens {
-                let borders = &setting.land.blocks[green.block as usize].borders;
-                let along = borders.iter().copied().find(|border| border.is_street());
                 let outline = setting.land.green_outline(green);
-                think_of(outline, along.unwrap_or(Border::LAND), spacing, streams, &mut trees);
+                think_of(outline, green.along, spacing, streams, &mut trees);
             }
             trees
         });

@@ -86,6 +86,12 @@ pub struct Extent {
 }
 
 impl Extent {
+    /// The sides that belong to it, ascending: side 2i is the left of road i, side 2i + 1 its right.
+    pub(crate) fn numbered_sides(&self) -> impl Iterator<Item = usize> + '_ {
+        let all = self.sides.iter().flatten().enumerate();
+        all.filter(|(_, belongs)| **belongs).map(|(side, _)| side)
+    }
+
     /// Whether what lies on either side of a road belongs to it.
     pub(crate) fn has_any_side(&self, road: RoadId) -> bool {
         [Side::Left, Side::Right].into_iter().any(|side| self.has_side(road, side))

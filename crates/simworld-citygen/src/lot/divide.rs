@@ -3,8 +3,8 @@
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::seed::{Stream, StreamRng};
 
-use super::{Green, GreenKind, Land, Lot, LotConfig, LotSize, LotStyle, slabs};
-use crate::block::{Ring, Split, decompose};
+use super::{Green, GreenKind, Land, Lot, LotConfig, LotSize, LotStyle, slabs, stream_of};
+use crate::block::{Block, Border, Ring, Split, decompose};
 use crate::zoning::{Zone, Zoning};
 
 /// Pieces smaller than this are not worth a green, m².
@@ -18,6 +18,8 @@ const NEAR: f64 = 1e-5;
 pub(super) struct Divider<'a> {
     land: &'a mut Land,
     block: u32,
+    /// The sidewalk that greens belong to.
+    pub(super) along: Border,
     zoning: &'a Zoning,
     config: &'a LotConfig,
     pub(super) rng: StreamRng,
@@ -28,13 +30,15 @@ pub(super) struct Divider<'a> {
 impl<'a> Divider<'a> {
     pub(super) fn new(
         land: &'a mut Land,
-        block: u32,
+        (block, whole): (u32, &Block),
         zoning: &'a Zoning,
         config: &'a LotConfig,
-        stream: Stream,
+        streams: Stream,
     ) -> Self {
+        let along = whole.borders.iter().copied().find(|border| border.is_street()).unwrap_or(Border::LAND);
+        let rng = stream_of(whole, streams).rng();
         let (zone, density) = (Zone::default(), 0.0);
-        Self { land, block, zoning, config, rng: stream.rng(), zone, density }
+        Self { land, block, along, zoning, config, rng, zone, density }
     }
 
     /// Sets the zone to that of a point.
@@ -152,7 +156,8 @@ impl<'a> Divider<'a> {
         let area = ring.area();
         if area > SPECK {
             let (start, count) = self.land.store(ring, 0);
-            self.land.greens.push(Green { start, count, block: self.block, kind, area });
+            let (block, along) = (self.block, self.along);
+            self.land.greens.push(Green { start, count, block, along, kind, area });
         }
     }
 }

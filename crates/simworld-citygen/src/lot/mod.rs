@@ -6,6 +6,7 @@ mod divide;
 mod opposite;
 mod ribbon;
 mod slabs;
+mod strips;
 
 pub use config::{LotConfig, LotSize, LotStyle};
 use rayon::prelude::*;
@@ -19,6 +20,7 @@ use crate::key::stream_at;
 use crate::occupancy::Occupancy;
 use crate::zoning::{Zone, Zoning};
 use divide::Divider;
+pub(crate) use strips::Strip;
 
 /// Blocks that one thread divides at once.
 const CHUNK: usize = 64;
@@ -63,6 +65,8 @@ pub struct Green {
     count: u32,
     /// The block it is a part of, an index into [`Land::blocks`].
     pub block: u32,
+    /// The sidewalk that what grows there belongs to: in open land that at its front, else the first round its block.
+    pub along: Border,
     /// Why it is green.
     pub kind: GreenKind,
     /// Area, m².
@@ -116,11 +120,23 @@ impl Land {
         seed: Seed,
         taken: &Occupancy,
     ) -> Self {
+        Self::of_fronts(blocks, zoning, config, seed, (taken, &|_, _| true))
+    }
+
+    /// Divides some blocks of a network, and along open ones those fronts alone that are asked for by the block and its edge. What
+    /// is fitted there depends on longer fronts near by, so these have to be asked for as well.
+    pub(crate) fn of_fronts(
+        blocks: Vec<Block>,
+        zoning: &Zoning,
+        config: &LotConfig,
+        seed: Seed,
+        (taken, is_fitted): (&Occupancy, &(dyn Fn(usize, usize) -> bool + Sync)),
+    ) -> Self {
         let streams = seed.stream("citygen/lots");
         // The lots of open blocks are fitted one after another, which takes long: meanwhile the closed ones are divided.
         let (mut parts, (open, fronts)) = rayon::join(
             || Self::of_closed(&blocks, zoning, config, streams),
-            || Self::of_open(&blocks, zoning, config, streams, taken),
+            || Self::of_open(&blocks, zoning, config, streams, (taken, is_fitted)),
         );
         if !open.corners.is_empty() {
             parts.push(open);
@@ -140,8 +156,7 @@ impl Land {
             .map(|chunk| {
                 let mut part = Self::for_blocks(chunk.len());
                 for (index, block) in chunk.iter().filter(|(_, block)| block.area.is_some()) {
-                    let stream = stream_of(block, streams);
-                    Divider::new(&mut part, *index, zoning, config, stream).divide(block.ring());
+                    Divider::new(&mut part, (*index, block), zoning, config, streams).divide(block.ring());
                 }
                 part
             })
@@ -166,14 +181,32 @@ impl Land {
         zoning: &Zoning,
         config: &LotConfig,
         streams: Stream,
-        taken: &Occupancy,
+        (taken, is_fitted): (&Occupancy, &(dyn Fn(usize, usize) -> bool + Sync)),
     ) -> (Self, Vec<f64>) {
         let (mut land, mut ribbons, mut fronts) = (Self::default(), Occupancy::default(), Vec::new());
         for (index, block) in (0..).zip(blocks).filter(|(_, block)| block.area.is_none()) {
-            let mut divider = Divider::new(&mut land, index, zoning, config, stream_of(block, streams));
-            fronts.append(&mut ribbon::line(&mut divider, block, streams, taken, &mut ribbons));
+            let mut divider = Divider::new(&mut land, (index, block), zoning, config, streams);
+            let is_fitted = |edge| is_fitted(index as usize, edge);
+            let around = ribbon::Land { streams, taken, is_fitted: &is_fitted };
+            fronts.append(&mut ribbon::line(&mut divider, block, &around, &mut ribbons));
         }
         (land, fronts)
+    }
+
+    /// Gives every border the number that it has in a part of the network, or none; `renumbered` says it.
+    pub(crate) fn in_part(mut self, renumbered: impl Fn(Border) -> Border) -> Self {
+        let blocks = self.blocks.iter_mut().flat_map(|block| &mut block.borders);
+        for border in
+            blocks.chain(&mut self.borders).chain(self.greens.iter_mut().map(|green| &mut green.along))
+        {
+            *border = renumbered(*border);
+        }
+        for lot in &mut self.lots {
+            if let Some((road, side)) = renumbered(Border::street(lot.road, lot.side)).as_street() {
+                (lot.road, lot.side) = (road, side);
+            }
+        }
+        self
     }
 
     /// The greens and their blocks alone: all that is asked for once buildings stand, and a fraction of the memory.
@@ -243,8 +276,8 @@ impl Land {
     pub fn of_block(block: Block, zoning: &Zoning, config: &LotConfig, seed: Seed) -> Self {
         let mut land = Self::default();
         if block.area.is_some() {
-            let stream = stream_of(&block, seed.stream("citygen/lots"));
-            Divider::new(&mut land, 0, zoning, config, stream).divide(block.ring());
+            let streams = seed.stream("citygen/lots");
+            Divider::new(&mut land, (0, &block), zoning, config, streams).divide(block.ring());
         }
         land.blocks.push(block);
         land

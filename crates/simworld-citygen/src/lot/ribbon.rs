@@ -7,7 +7,7 @@ use super::corner::{Corner, Front};
 use super::divide::{Divider, longest_front};
 use super::opposite::{Opposite, shared};
 use super::slabs::{Street, front, stations};
-use super::{GreenKind, PER_METRE};
+use super::{GreenKind, LotSize, PER_METRE};
 use crate::block::{Block, Border, Ring, Split};
 use crate::key::stream_at;
 use crate::occupancy::Occupancy;
@@ -20,43 +20,42 @@ const SHALLOWEST: f64 = 8.0;
 /// A lot is not halved to less than this, m.
 const NARROWEST_HALF: f64 = 7.0;
 
-/// Lines the streets of an open block with lots that touch neither `taken` nor one another; says how long the front of each
+/// The land that lots are fitted into.
+pub(super) struct Land<'a> {
+    /// The streams of all lots.
+    pub(super) streams: Stream,
+    /// What they may not touch: the land of the roads.
+    pub(super) taken: &'a Occupancy,
+    /// Whether a front, by its edge, gets its lots: all do in a whole city.
+    pub(super) is_fitted: &'a dyn Fn(usize) -> bool,
+}
+
+/// Lines the streets of an open block with lots that touch neither what is taken nor one another; says how long the front of each
 /// is where buildings may stand, m.
 pub(super) fn line(
     divider: &mut Divider<'_>,
     block: &Block,
-    streams: Stream,
-    taken: &Occupancy,
+    land: &Land<'_>,
     ribbons: &mut Occupancy,
 ) -> Vec<f64> {
     let ring = block.ring();
-    let mut order: Vec<(usize, f64)> = (0..ring.len())
-        .filter(|index| ring.borders[*index].is_street())
-        .map(|index| (index, ring.edge(index).norm()))
-        .filter(|(_, length)| *length >= SHORTEST_FRONT)
-        .collect();
-    // Longer streets take the corners.
-    order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let street_of = |index: usize, length: f64| Street {
-        border: ring.borders[index],
-        start: ring.corners[index],
-        along: ring.edge(index) / length,
-    };
+    let order = in_order(&ring);
     let mut fronts = vec![Front::default(); ring.len()];
     for (index, length) in &order {
-        let is_built = enter(divider, &street_of(*index, *length), *length) != Zone::Park;
+        let is_built = divider.enter(enter(&street_of(&ring, *index, *length), *length)) != Zone::Park;
         fronts[*index] = Front { length: *length, is_built, depths: [0.0; 2] };
     }
     let built =
         order.iter().filter(|(index, _)| fronts[*index].is_built).map(|(_, length)| *length).collect();
     let opposite = Opposite::of(&ring, &fronts);
-    for (index, length) in order {
-        let street = street_of(index, length);
+    for (index, length) in order.into_iter().filter(|(index, _)| (land.is_fitted)(*index)) {
+        let street = street_of(&ring, index, length);
+        divider.along = street.border;
         // A stream for each front, so that a change elsewhere on the outskirts changes no lot here.
-        divider.rng = stream_at(street.start, PER_METRE, streams).rng();
-        let is_park = enter(divider, &street, length) == Zone::Park;
+        divider.rng = stream_at(street.start, PER_METRE, land.streams).rng();
+        let is_park = divider.enter(enter(&street, length)) == Zone::Park;
         let size = divider.size();
-        let depth = size.depth.min(size.most_area / size.most_width);
+        let depth = depth_of(size);
         let ends = [false, true].map(|is_end| Corner::of(&ring, &fronts, (index, street.along), is_end));
         let Some(row) = row(&street, ring.next(index), depth, &ends) else { continue };
         let facing = opposite.facing(&row, &street, depth);
@@ -66,7 +65,7 @@ pub(super) fn line(
         stations(divider, &row, &street, |_, lot| {
             let depth = shared(&facing, lot, &street, depth, least);
             depths = Some(depths.map_or([depth; 2], |[first, _]| [first, depth]));
-            fit(lot, &Site { street: &street, depth, taken }, ribbons, &mut lots);
+            fit(lot, &Site { street: &street, depth, taken: land.taken }, ribbons, &mut lots);
         });
         fronts[index].depths = depths.unwrap_or([depth; 2]);
         for lot in lots {
@@ -88,9 +87,30 @@ fn file(divider: &mut Divider<'_>, lot: &Ring, is_park: bool) {
     }
 }
 
-/// Sets the zone to that of the land along a street.
-fn enter(divider: &mut Divider<'_>, street: &Street, length: f64) -> Zone {
-    divider.enter(street.start + street.along * (length * 0.5) + street.inwards() * 15.0)
+/// The edges of an open block that get lots and their lengths, m, in the order in which they do: longer streets take the corners.
+pub(super) fn in_order(ring: &Ring) -> Vec<(usize, f64)> {
+    let mut order: Vec<(usize, f64)> = (0..ring.len())
+        .filter(|index| ring.borders[*index].is_street())
+        .map(|index| (index, ring.edge(index).norm()))
+        .filter(|(_, length)| *length >= SHORTEST_FRONT)
+        .collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    order
+}
+
+/// The street along an edge of that length, m.
+pub(super) fn street_of(ring: &Ring, edge: usize, length: f64) -> Street {
+    Street { border: ring.borders[edge], start: ring.corners[edge], along: ring.edge(edge) / length }
+}
+
+/// The place whose zone is that of the land along a street of that length, m.
+pub(super) fn enter(street: &Street, length: f64) -> Point2 {
+    street.start + street.along * (length * 0.5) + street.inwards() * 15.0
+}
+
+/// How deep lots of open land are at most, m.
+pub(super) fn depth_of(size: &LotSize) -> f64 {
+    size.depth.min(size.most_area / size.most_width)
 }
 
 /// The strip along one street, up to the limits at its ends; `None` if nothing is left.

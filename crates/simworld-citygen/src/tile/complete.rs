@@ -49,7 +49,7 @@ impl Tile {
         // reach there.
         let mut taken = Occupancy::of_roads_where(&network, |road| extent.has_any_side(road));
         let zoning = Zoning::new(&config.zoning, seed);
-        let blocks = Block::of_faces(&network, |road, side| extent.has_side(road, side));
+        let blocks = Block::of_sides(&network, extent.numbered_sides());
         let land = Land::of_blocks(blocks, &zoning, &config.lots, seed, &taken);
         // Places and names are drawn tile by tile.
         let own_seed = seed.stream("citygen/tiles").indexed(id.x as u64).indexed(id.y as u64).seed();
