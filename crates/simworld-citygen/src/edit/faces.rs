@@ -45,6 +45,8 @@ pub(super) struct Faces<'a> {
 
 /// What stands there already, given by a map or a hand.
 pub(super) struct Given<'a> {
+    /// Whether a map says what stands everywhere.
+    pub(super) is_mapped: bool,
     pub(super) buildings: Vec<&'a Building>,
     pub(super) elements: Vec<&'a Element>,
 }
@@ -102,9 +104,7 @@ impl<'a> Faces<'a> {
             .iter()
             .flat_map(|building| building.ground())
             .for_each(|piece| self.taken.add(&piece));
-        // On a map that has buildings what has none is empty.
-        let is_mapped = self.city.provenance.origin.is_some() && !given.buildings.is_empty();
-        let mut buildings = if is_mapped {
+        let mut buildings = if given.is_mapped {
             Vec::new()
         } else {
             building::raise(&self.network, &self.land, &config.buildings, seed, &mut self.taken)

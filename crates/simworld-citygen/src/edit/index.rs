@@ -23,6 +23,9 @@ pub(super) struct Index {
     /// Elements that were given.
     given: Cells,
     pub(super) names: BTreeSet<String>,
+    /// How many buildings were given, and how many follow from the land.
+    given_buildings: usize,
+    raised_buildings: usize,
 }
 
 fn road_bounds(city: &City, road: usize) -> Option<Bounds> {
@@ -42,6 +45,8 @@ impl Index {
             elements: vec![Vec::new(); count],
             given: Cells::default(),
             names: BTreeSet::new(),
+            given_buildings: 0,
+            raised_buildings: 0,
         };
         (0..count).for_each(|road| index.file_road(city, road));
         (0..).zip(&city.buildings).for_each(|(number, building)| index.file_building(number, building));
@@ -57,7 +62,17 @@ impl Index {
 
     fn file_building(&mut self, number: u32, building: &Building) {
         self.names.extend(building.name.clone());
+        *self.count_of(building) += 1;
         list_of(&mut self.buildings, building.road.index()).push(number);
+    }
+
+    fn count_of(&mut self, building: &Building) -> &mut usize {
+        if building.given { &mut self.given_buildings } else { &mut self.raised_buildings }
+    }
+
+    /// Whether the buildings are those of a map: where it has none the land is empty.
+    pub(super) fn has_mapped_buildings(&self) -> bool {
+        self.given_buildings > 0 && self.raised_buildings == 0
     }
 
     fn file_element(&mut self, number: u32, element: &Element) {
@@ -78,6 +93,7 @@ impl Index {
             if let Some(name) = &old.name {
                 self.names.remove(name);
             }
+            *self.count_of(old) -= 1;
             list_of(&mut self.buildings, old.road.index()).retain(|other| other != number);
         }
         for (number, old) in &back.elements.set {

@@ -97,36 +97,56 @@ struct Pieces {
 impl Pieces {
     /// Of some roads, of which there is one: no more of the others is looked at than it takes to come from each to one that is known.
     fn of<'a>(network: &RoadNetwork, roads: impl Iterator<Item = &'a usize>) -> Self {
+        let roads: BTreeSet<usize> = roads.copied().collect();
         let mut pieces = Self { by_road: BTreeMap::new(), count: 0 };
-        for road in roads {
+        for road in &roads {
             if pieces.count == 0 {
-                pieces.by_road.insert(*road, 0);
                 pieces.count = 1;
+                pieces.take(network, &roads, (*road, 0));
             } else if !pieces.by_road.contains_key(road) {
                 let (reached, piece) = pieces.explore(network, *road);
                 pieces.count = pieces.count.max(piece + 1);
-                pieces.by_road.extend(reached.into_iter().map(|road| (road, piece)));
+                for road in reached {
+                    pieces.take(network, &roads, (road, piece));
+                }
             }
         }
         pieces
+    }
+
+    /// Takes a road into a piece, and those of some roads that it comes to by these alone: most are found so, for they lie side by side.
+    fn take(&mut self, network: &RoadNetwork, roads: &BTreeSet<usize>, (road, piece): (usize, usize)) {
+        let mut open = vec![road];
+        while let Some(road) = open.pop() {
+            if self.by_road.insert(road, piece).is_none() {
+                let next = neighbours(network, road);
+                open.extend(next.filter(|next| roads.contains(next) && !self.by_road.contains_key(next)));
+            }
+        }
     }
 
     /// The roads that are reached from one until one of them is known, and their piece: a new one if none is.
     fn explore(&self, network: &RoadNetwork, from: usize) -> (BTreeSet<usize>, usize) {
         let (mut reached, mut open) = (BTreeSet::from([from]), VecDeque::from([from]));
         while let Some(road) = open.pop_front() {
-            let ends = [network.roads[road].from, network.roads[road].to];
-            for next in ends.iter().flat_map(|end| network.intersections[end.index()].roads.iter()) {
-                if let Some(piece) = self.by_road.get(&next.index()) {
+            for next in neighbours(network, road) {
+                if let Some(piece) = self.by_road.get(&next) {
                     return (reached, *piece);
                 }
-                if reached.insert(next.index()) {
-                    open.push_back(next.index());
+                if reached.insert(next) {
+                    open.push_back(next);
                 }
             }
         }
         (reached, self.count)
     }
+}
+
+/// The roads that meet a road, itself among them.
+fn neighbours(network: &RoadNetwork, road: usize) -> impl Iterator<Item = usize> + '_ {
+    let ends = [network.roads[road].from, network.roads[road].to];
+    let roads = ends.into_iter().flat_map(|end| &network.intersections[end.index()].roads);
+    roads.map(|road| road.index())
 }
 
 fn both_sides(roads: &BTreeSet<usize>) -> impl Iterator<Item = usize> {

@@ -138,6 +138,7 @@ impl CityEditor {
         let round = self.given_round(&scope.all, &before.given);
         let round = round.iter().filter(|number| !after.buildings_gone.contains(number));
         let given = Given {
+            is_mapped: city.provenance.origin.is_some() && self.index.has_mapped_buildings(),
             buildings: round
                 .map(|number| moved.get(number).copied().unwrap_or(&city.buildings[*number]))
                 .collect(),
