@@ -161,3 +161,46 @@ fn parks_beside(faces: &Outskirts, sides: &BTreeSet<usize>) -> BTreeSet<usize> {
 fn side_at(moved: &Moved, time: usize, other: usize) -> usize {
     2 * moved.number_at(time, other / 2) + other % 2
 }
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::seed::Seed;
+
+    use super::super::CityEditor;
+    use super::super::streets::with_neighbours;
+    use crate::graph::StreetId;
+    use crate::{City, CityConfig, Style};
+
+    #[test]
+    fn a_street_at_the_edge_has_a_part_of_the_outskirts_made_anew() {
+        let config = CityConfig { roads: Style::Mixed.roads(3000), ..CityConfig::default() };
+        let city = City::generate(&config, Seed(3)).expect("presets are valid");
+        let beyond = |road: &usize| city.network.roads[*road].centerline[0].coords.norm();
+        let mut roads: Vec<usize> = (0..city.network.roads.len()).collect();
+        roads.sort_by(|a, b| beyond(b).total_cmp(&beyond(a)));
+        let mut editor = CityEditor::new(city.clone());
+        let (mut tried, mut most) = (0, 0.0_f64);
+        for gone in roads.into_iter().take(12) {
+            let part = editor.city.plan.part(with_neighbours(&editor.city.network, [gone].into()));
+            let local = StreetId(part.street(gone).expect("it is one of its part") as u32);
+            let changed = editor.change_streets(part, |graph| graph.remove_street(local), None);
+            let Ok(changed) = changed else { continue };
+            let altered = editor.altered(&changed.network);
+            let plan = changed.plan.put_on(&mut editor.city.plan).expect("it was taken from there");
+            let (network, [before, after]) =
+                editor.scopes(changed.network, &altered).expect("it was taken from there");
+            // As it was, and nothing of it is to be done.
+            drop((plan, network));
+            assert!(editor.city == city, "{gone}");
+            for scope in [before, after] {
+                let open = scope.outskirts.open.len();
+                if open > 100 {
+                    assert!(scope.sides.is_subset(&scope.furnished) && scope.furnished.is_subset(&scope.all));
+                    most = most.max(scope.all.len() as f64 / open as f64);
+                    tried += 1;
+                }
+            }
+        }
+        assert!(tried >= 10 && most < 0.5, "{tried} times, at most {most} of the outskirts");
+    }
+}

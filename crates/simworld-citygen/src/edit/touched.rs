@@ -80,7 +80,7 @@ impl CityEditor {
     }
 
     /// What of the land a change of the roads, which has been taken back, has made anew, before and after; leaves the roads as they were.
-    fn scopes(
+    pub(super) fn scopes(
         &mut self,
         network: NetworkPatch,
         altered: &Altered,

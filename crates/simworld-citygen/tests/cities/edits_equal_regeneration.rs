@@ -145,6 +145,39 @@ fn edit_by_chance(style: Style, seed: u64) {
     }
 }
 
+/// Where open land is large only the part of it is made anew that a change reaches.
+#[test]
+fn edits_at_the_edge_give_the_city_of_the_new_streets() {
+    let whole = std::env::var_os("SIMWORLD_SOAK").is_some();
+    for seed in 0..if whole { 40 } else { 1 } {
+        for style in Style::ALL {
+            edit_at_the_edge(style, seed);
+        }
+    }
+}
+
+/// The outermost streets of a town go, and others lead out of it.
+fn edit_at_the_edge(style: Style, seed: u64) {
+    let mut editor = CityEditor::new(city(style, 500, seed));
+    let mut rng = Seed(seed).stream("edges").rng();
+    for step in 0..8 {
+        let roads = &editor.city().network.roads;
+        let middle = |road: usize| nalgebra::center(&roads[road].centerline[0], &roads[road].centerline[1]);
+        let away = simworld_core::geometry::direction(rng.uniform(0.0, std::f64::consts::TAU));
+        let beyond = |road: usize| middle(road).coords.dot(&away);
+        let outermost = (0..roads.len()).max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)));
+        let road = outermost.expect("a town has streets");
+        let edit = if step % 2 == 0 {
+            CityEdit::RemoveStreet(RoadId::from_index(road))
+        } else {
+            CityEdit::AddStreet(NewStreet::local([middle(road), middle(road) + away * 90.0]))
+        };
+        if editor.apply(&edit).is_ok() {
+            assert_like_the_whole(editor.city(), &format!("{style:?} {seed}, step {step}, {edit:?}"));
+        }
+    }
+}
+
 /// Buildings away from an edit keep their names, their uses and their numbers.
 #[test]
 fn what_an_edit_does_not_touch_stays() {
