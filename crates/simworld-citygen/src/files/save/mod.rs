@@ -18,6 +18,7 @@ mod before;
 mod check;
 mod frame;
 mod source;
+mod walks;
 
 use std::io::Write;
 use std::path::Path;
@@ -205,7 +206,7 @@ impl City {
         frames.list(Tag::Crossings, &network.crossings)?;
         frames.list(Tag::Signals, &network.signals)?;
         frames.list(Tag::Names, &network.names)?;
-        frames.list(Tag::Footpaths, &network.footpaths)?;
+        walks::write(&mut frames, &network.footpaths)?;
         frames.end()
     }
 
@@ -311,7 +312,7 @@ fn read_network(
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
         names: sections.list(Tag::Names, counts.names)?,
-        footpaths: sections.list(Tag::Footpaths, counts.footpaths)?,
+        footpaths: walks::read(sections, counts.footpaths)?,
     };
     network.check()?;
     Ok(network)
