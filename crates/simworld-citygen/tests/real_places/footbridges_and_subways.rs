@@ -225,7 +225,7 @@ fn files_and_maps_tell_them() {
 
 #[test]
 fn real_places_have_them() {
-    for (file, least) in [("monaco.osm.gz", [25, 15, 1]), ("helsinki.osm.pbf", [1, 100, 10])] {
+    for (file, least) in [("monaco.osm.gz", [9, 17, 0]), ("helsinki.osm.pbf", [1, 100, 10])] {
         let Some(place) = real(file) else { continue };
         let (city, warnings) =
             City::from_place(&place, &PlaceOptions::default(), &CityConfig::default(), Seed(1)).unwrap();

@@ -9,6 +9,7 @@ mod junctions_of_real_places_are_sound;
 #[cfg(feature = "osm")]
 mod osm_common;
 mod real_places_become_cities;
+mod squares_with_holes;
 mod tags_become_lanes;
 mod turns_are_those_of_the_map;
 mod ways_for_walkers;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use simworld_core::geometry::Point2;
 
+use super::area::{self, Area};
 use super::passed;
 use super::square::Square;
 use crate::osm::error::Warning;
@@ -58,7 +59,9 @@ pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
         Some((way, walk_of(&tags)?, tags.is(Key::Area, "yes")))
     });
     let (areas, lines): (Vec<_>, Vec<_>) = wanted.partition(|(.., is_area)| *is_area);
-    let (areas, off_ground): (Vec<_>, Vec<_>) = areas.into_iter().partition(|(_, walk, _)| walk.level == 0);
+    let areas: Vec<Line<'_>> = areas.into_iter().map(|(way, walk, _)| (way, walk)).collect();
+    let areas = area::areas(place, &areas, warnings);
+    let (areas, off_ground): (Vec<_>, Vec<_>) = areas.into_iter().partition(|area| area.walk.level == 0);
     let lines: Vec<Line<'_>> = lines.into_iter().map(|(way, walk, _)| (way, walk)).collect();
     let passed = passed::of(place, &lines, &areas, warnings);
     let covered = lines.iter().filter(|(_, walk)| walk.is_covered);
@@ -68,7 +71,7 @@ pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
         gates: covered.flat_map(|(way, _)| place.raw.nodes_of(way)).copied().collect(),
     };
     // Nobody crosses a square above the ground: what comes to it ends there.
-    off_ground.iter().for_each(|(way, walk, _)| met.pass(place.raw.nodes_of(way), walk.level));
+    off_ground.iter().for_each(|area| met.pass(&area.edge, area.walk.level));
     passed.iter().for_each(|node| met.lines[*node as usize] = 0);
     let mut drawn = across(place, &areas, &mut met);
     passed.iter().for_each(|node| met.lines[*node as usize] = 0);
@@ -127,16 +130,16 @@ impl Met {
 }
 
 /// The lines across squares, between the places where other ways meet their edges.
-fn across(place: &Place, areas: &[(&Way, Walk, bool)], met: &mut Met) -> Vec<Drawn> {
+fn across(place: &Place, areas: &[Area], met: &mut Met) -> Vec<Drawn> {
     let mut edges = vec![0_u8; met.lines.len()];
     let mut squares = Vec::new();
-    for (way, walk, _) in areas {
-        match Square::of(place, way) {
-            Some(square) => squares.push((square, way.id, *walk)),
-            None => met.pass(place.raw.nodes_of(way), walk.level),
+    for area in areas {
+        match Square::of(place, area) {
+            Some(square) => squares.push((square, area.id, area.walk)),
+            None => met.pass(&area.edge, area.walk.level),
         }
     }
-    for node in squares.iter().flat_map(|(square, ..)| square.nodes) {
+    for node in squares.iter().flat_map(|(square, ..)| &square.nodes).filter(|node| **node != MISSING) {
         let count = &mut edges[*node as usize];
         *count = count.saturating_add(1);
     }
@@ -149,7 +152,7 @@ fn across(place: &Place, areas: &[(&Way, Walk, bool)], met: &mut Met) -> Vec<Dra
         let lines = square.lines(is_entrance);
         if lines.is_empty() {
             // Who comes to it goes on beside it.
-            met.pass(square.nodes, walk.level);
+            met.pass(&square.nodes, walk.level);
         }
         for line in lines {
             let (path, ends) = (line.map(|end| square.corner(end)), line.map(|end| square.nodes[end]));
@@ -186,12 +189,22 @@ fn put_other(others: &mut [Option<i8>], node: u32, level: i8) {
     }
 }
 
+impl Walk {
+    /// What a square is like that is said to be nothing else; none if nobody may enter.
+    pub(super) fn of_square(tags: &Tags<'_>) -> Option<Self> {
+        walk_as("pedestrian", tags)
+    }
+}
+
 /// What a way for walkers alone is like; none of other ways.
 pub(super) fn walk_of(tags: &Tags<'_>) -> Option<Walk> {
+    walk_as(tags.get(Key::Highway)?, tags)
+}
+
+fn walk_as(highway: &str, tags: &Tags<'_>) -> Option<Walk> {
     /// What the streets have by themselves: <https://wiki.openstreetmap.org/wiki/Key:footway>.
     const OF_STREETS: [&str; 3] = ["sidewalk", "crossing", "traffic_island"];
     const CLOSED: [&str; 2] = ["no", "private"];
-    let highway = tags.get(Key::Highway)?;
     let (_, usual) = KINDS.iter().find(|(value, _)| *value == highway)?;
     let access = tags.get(Key::Foot).or_else(|| tags.get(Key::Access));
     let is_left_out = tags.is_any(Key::Footway, &OF_STREETS)

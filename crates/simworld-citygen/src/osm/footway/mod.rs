@@ -5,6 +5,7 @@
 //! others at their ends. Sidewalks and crossings that are drawn as ways of their own are those of the streets, so that they
 //! are left out, and so is what follows a sidewalk without saying so, and what nobody may enter.
 
+mod area;
 mod cut;
 mod drawn;
 mod land;
@@ -18,6 +19,7 @@ use simworld_core::net::{Footpath, RoadNetwork, polyline};
 
 use super::error::{OsmId, Warning};
 use super::place::Place;
+use super::raw::MISSING;
 use crate::building::Building;
 use crate::occupancy::Occupancy;
 use cut::Run;
@@ -53,7 +55,8 @@ pub(super) fn paths(
             } else {
                 // What met it there goes on to the sidewalk instead.
                 let ends = way.ends.into_iter().zip(piece.run.cut);
-                given_up.extend(ends.filter(|(_, is_cut)| !is_cut).map(|(node, _)| node));
+                let ends = ends.filter(|(node, is_cut)| !is_cut && *node != MISSING);
+                given_up.extend(ends.map(|(node, _)| node));
             }
         }
     }

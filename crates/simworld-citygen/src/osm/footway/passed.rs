@@ -3,7 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::drawn::{Line, Walk, walk_of};
+use super::area::Area;
+use super::drawn::{Line, walk_of};
 use crate::osm::error::{OsmId, Warning};
 use crate::osm::place::Place;
 use crate::osm::raw::{MISSING, Way};
@@ -31,7 +32,7 @@ struct Node {
 pub(super) fn of(
     place: &Place,
     lines: &[Line<'_>],
-    squares: &[(&Way, Walk, bool)],
+    squares: &[Area],
     warnings: &mut Vec<Warning>,
 ) -> BTreeSet<u32> {
     let is_structure = |way: &Way| {
@@ -47,20 +48,21 @@ pub(super) fn of(
     for (node, _) in place.raw.tagged_nodes().filter(|(_, tags)| tags.is(Key::Highway, "elevator")) {
         nodes.entry(node).and_modify(|found| found.leads_on = true);
     }
-    let mut touch = |way: &Way, level: i8, is_structure: bool, has_ends: bool| {
-        let all = place.raw.nodes_of(way);
+    let mut touch = |way: i64, all: &[u32], level: i8, is_structure: bool, has_ends: bool| {
         for (index, node) in all.iter().enumerate() {
             let Some(found) = nodes.get_mut(node) else { continue };
-            found.touches.push(Touch { way: way.id, level, is_structure });
+            found.touches.push(Touch { way, level, is_structure });
             found.leads_on |= has_ends && (index == 0 || index + 1 == all.len());
         }
     };
-    lines.iter().for_each(|(way, walk)| touch(way, walk.level, walk.level != 0 && is_structure(way), true));
-    squares.iter().for_each(|(way, walk, _)| touch(way, walk.level, false, false));
+    for (way, walk) in lines {
+        touch(way.id, place.raw.nodes_of(way), walk.level, walk.level != 0 && is_structure(way), true);
+    }
+    squares.iter().for_each(|square| touch(square.id, &square.edge, square.walk.level, false, false));
     for way in place.raw.ways() {
         let tags = place.raw.way_tags(way);
         if tags.get(Key::Highway).is_some() && walk_of(&tags).is_none() {
-            touch(way, street::level(&tags), false, false);
+            touch(way.id, place.raw.nodes_of(way), street::level(&tags), false, false);
         }
     }
     let mut passed = BTreeSet::new();
