@@ -10,7 +10,7 @@ use super::path::Pen;
 use super::style::{BRIDGE_EDGE, PASSAGE, SIDEWALK};
 use crate::City;
 
-/// The narrowest on paper, mm.
+/// The narrowest on paper, mm; those that would be finer than a third of it are left out.
 const LEAST: f64 = 0.3;
 /// Lengths of dashes and of the gaps between them, mm.
 const DASHES: (f64, f64) = (0.8, 0.55);
@@ -36,7 +36,7 @@ fn broken(
     id: &str,
     is_meant: impl Fn(&Footpath) -> bool,
 ) -> fmt::Result {
-    let mut ways = city.network.footpaths.iter().filter(|way| is_meant(way)).peekable();
+    let mut ways = drawn(page, city).filter(|way| is_meant(way)).peekable();
     if ways.peek().is_none() {
         return Ok(());
     }
@@ -59,11 +59,17 @@ pub(super) fn decks(
     level: i8,
     edge: bool,
 ) -> fmt::Result {
-    for way in city.network.footpaths.iter().filter(|way| way.level == level) {
+    for way in drawn(page, city).filter(|way| way.level == level) {
         let (color, wider) = if edge { (BRIDGE_EDGE, page.ink(2.0 * EDGE)) } else { (SIDEWALK, 0.0) };
         write(f, page, way, color, width(page, way) + wider)?;
     }
     Ok(())
+}
+
+/// The ways that are not finer than ink.
+fn drawn<'a>(page: &Page, city: &'a City) -> impl Iterator<Item = &'a Footpath> + use<'a> {
+    let least = LEAST / 3.0 / page.scale;
+    city.network.footpaths.iter().filter(move |way| way.width >= least)
 }
 
 /// Its width, in units of the drawing.

@@ -3,7 +3,7 @@
 //! Saved is what a city is made of: configuration, plan, buildings, elements, ways for walkers, and the road network too,
 //! although it follows from the plan: to read it is several times faster than to derive it, and a city stays what it was
 //! when a later version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame
-//! are little-endian.
+//! are little-endian. A section for ways for walkers off the open ground is there only where a city has some.
 //!
 //! | bytes | what |
 //! |---|---|

@@ -28,7 +28,7 @@ struct Plain {
 
 /// What is not so of one of them.
 #[derive(Serialize, Deserialize)]
-struct Level {
+struct OffGround {
     /// Its index.
     way: u32,
     level: i8,
@@ -40,8 +40,8 @@ pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, ways: &[Footpath]) -> 
         ways.iter().map(|way| Written { path: &way.path, width: way.width, joins: way.joins }).collect();
     frames.list(Tag::Footpaths, &written)?;
     let off_ground = ways.iter().enumerate().filter(|(_, way)| way.level != 0 || way.covered);
-    let levels: Vec<Level> = off_ground
-        .map(|(index, way)| Level { way: index as u32, level: way.level, covered: way.covered })
+    let levels: Vec<OffGround> = off_ground
+        .map(|(index, way)| OffGround { way: index as u32, level: way.level, covered: way.covered })
         .collect();
     if levels.is_empty() { Ok(()) } else { frames.section(Tag::Levels, &levels) }
 }
@@ -56,8 +56,9 @@ pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<Vec<Footpath>,
         covered: false,
     });
     let mut ways: Vec<Footpath> = ways.collect();
-    let levels: Vec<Level> = if sections.have(Tag::Levels) { sections.one(Tag::Levels)? } else { Vec::new() };
-    for Level { way: index, level, covered } in levels {
+    let levels: Vec<OffGround> =
+        if sections.have(Tag::Levels) { sections.one(Tag::Levels)? } else { Vec::new() };
+    for OffGround { way: index, level, covered } in levels {
         let lost = SaveError::Unsound {
             what: Tag::Levels.name(),
             index: index as usize,

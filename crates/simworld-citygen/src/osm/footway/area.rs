@@ -110,8 +110,10 @@ fn points(place: &Place, nodes: &[u32]) -> Vec<Point2> {
 fn put_obstacles(place: &Place, areas: &mut [Area]) {
     let mut mask = Mask::new();
     let edges: Vec<Vec<Point2>> = areas.iter().map(|area| points(place, &area.edge)).collect();
-    let boxes: Vec<_> = edges.iter().map(|edge| bounds(edge)).collect();
-    edges.iter().for_each(|edge| mask.mark(edge, 0.0));
+    let boxes: Vec<_> = edges.iter().map(bounds).collect();
+    for edge in &edges {
+        mask.mark(edge, 0.0);
+    }
     if areas.is_empty() {
         return;
     }

@@ -71,10 +71,12 @@ pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
         gates: covered.flat_map(|(way, _)| place.raw.nodes_of(way)).copied().collect(),
     };
     // Nobody crosses a square above the ground: what comes to it ends there.
-    off_ground.iter().for_each(|area| met.pass(&area.edge, area.walk.level));
-    passed.iter().for_each(|node| met.lines[*node as usize] = 0);
+    for area in &off_ground {
+        met.pass(&area.edge, area.walk.level);
+    }
+    met.part(&passed);
     let mut drawn = across(place, &areas, &mut met);
-    passed.iter().for_each(|node| met.lines[*node as usize] = 0);
+    met.part(&passed);
     for (way, walk) in lines {
         let is_there = |node: &u32| place.point(*node).is_some();
         for run in place.raw.nodes_of(way).chunk_by(|a, b| is_there(a) == is_there(b)) {
@@ -108,6 +110,13 @@ struct Met {
 }
 
 impl Met {
+    /// Nothing is split where ways pass each other without meeting.
+    fn part(&mut self, passed: &BTreeSet<u32>) {
+        for node in passed {
+            self.lines[*node as usize] = 0;
+        }
+    }
+
     /// What is no way for walkers after all passes some nodes.
     fn pass(&mut self, nodes: &[u32], level: i8) {
         for node in nodes.iter().filter(|node| **node != MISSING) {

@@ -86,7 +86,7 @@ impl<'a> Levels<'a> {
     /// at which ends that is so; the others are as they were drawn.
     fn drawn_in(&self, way: &Drawn) -> Option<(Vec<Point2>, [bool; 2])> {
         let (mut path, mut is_drawn_in) = (way.path.clone(), [false; 2]);
-        for end in 0..2 {
+        for (end, is_drawn_in) in is_drawn_in.iter_mut().enumerate() {
             let Some(level) = way.meets[end].filter(|level| ![0, *level].contains(&way.walk.level)) else {
                 continue;
             };
@@ -107,7 +107,7 @@ impl<'a> Levels<'a> {
                 *own = *other;
             }
             path = rest;
-            is_drawn_in[end] = true;
+            *is_drawn_in = true;
         }
         Some((path, is_drawn_in))
     }
@@ -116,9 +116,9 @@ impl<'a> Levels<'a> {
     fn is_open(&self, way: &Drawn, a: Point2, b: Point2) -> bool {
         let land = self.land(way.walk.level);
         let ends = [way.path.first(), way.path.last()];
-        let mouths =
+        let mut mouths =
             ends.into_iter().zip(way.gates).filter(|(_, is_gate)| *is_gate).filter_map(|(end, _)| end);
-        let outside = |piece| mouths.fold(Some(piece), |piece, mouth| beyond(piece?, *mouth));
+        let mut outside = |piece| mouths.try_fold(piece, |piece, mouth| beyond(piece, *mouth));
         land.is_off_roads(a, b)
             && (way.walk.is_covered || outside([a, b]).is_none_or(|[a, b]| land.is_outside(a, b)))
     }

@@ -58,7 +58,9 @@ pub(super) fn of(
     for (way, walk) in lines {
         touch(way.id, place.raw.nodes_of(way), walk.level, walk.level != 0 && is_structure(way), true);
     }
-    squares.iter().for_each(|square| touch(square.id, &square.edge, square.walk.level, false, false));
+    for square in squares {
+        touch(square.id, &square.edge, square.walk.level, false, false);
+    }
     for way in place.raw.ways() {
         let tags = place.raw.way_tags(way);
         if tags.get(Key::Highway).is_some() && walk_of(&tags).is_none() {

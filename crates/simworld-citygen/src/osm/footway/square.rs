@@ -276,7 +276,7 @@ mod tests {
 
     fn square(corners: &[(f64, f64)], nodes: &[u32]) -> Square {
         let corners: Vec<Point2> = corners.iter().map(|(x, y)| Point2::new(*x, *y)).collect();
-        Square { nodes: nodes.to_vec(), rings: vec![0..corners.len()], corners }
+        Square { nodes: nodes.to_vec(), rings: std::iter::once(0..corners.len()).collect(), corners }
     }
 
     #[test]
@@ -375,7 +375,7 @@ mod tests {
             .map(|index| Point2::origin() + simworld_core::geometry::direction(f64::from(index) * 0.2) * 40.0)
             .collect();
         let nodes: Vec<u32> = (0..count).collect();
-        let round = Square { nodes, rings: vec![0..corners.len()], corners };
+        let round = Square { nodes, rings: std::iter::once(0..corners.len()).collect(), corners };
         let lines = round.lines(|_| true);
         assert!(lines.len() < 150, "{} of {} lines", lines.len(), count * (count - 1) / 2);
         let mut ways = Ways::none(count as usize);
