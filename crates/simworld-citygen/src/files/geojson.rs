@@ -5,8 +5,9 @@
 //! written in its own metres, x east and y north, which RFC 7946 (section 4) allows between those who agree on it; the
 //! member `frame` of the collection says which of the two it is.
 //!
-//! Every feature has `layer`: `street`, `lane`, `intersection`, `sidewalk`, `crossing`, `building`, `element`, and in
-//! its `id` that layer and its index in the city.
+//! Every feature has `layer`: `street`, `lane`, `intersection`, `sidewalk`, `crossing`, `footpath`, `building`,
+//! `element`, and in its `id` that layer and its index in the city. A `footpath` has the `level` on which it lies, 0 on the
+//! ground, and is `covered` where it leads through a building.
 
 use std::io::{self, Write};
 
@@ -108,6 +109,11 @@ impl<W: Write> Features<'_, W> {
             });
             let line = [crossing.start, crossing.end];
             self.feature("crossing", index, &Geometry::Line(&line), properties)?;
+        }
+        for (index, way) in network.footpaths.iter().enumerate() {
+            let properties =
+                json!({ "width_m": millimetres(way.width), "level": way.level, "covered": way.covered });
+            self.feature("footpath", index, &Geometry::Line(&way.path), properties)?;
         }
         Ok(())
     }

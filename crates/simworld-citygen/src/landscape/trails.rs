@@ -261,7 +261,13 @@ impl Trails {
     /// The ways as a network knows them.
     pub(super) fn footpaths(&self) -> Vec<Footpath> {
         let planar = |line: Vec<Point3>| line.iter().map(Point3::xy).collect();
-        let way = |line| Footpath { path: planar(line), width: TRAIL_WIDTH, joins: [true; 2] };
+        let way = |line| Footpath {
+            path: planar(line),
+            width: TRAIL_WIDTH,
+            joins: [true; 2],
+            level: 0,
+            covered: false,
+        };
         self.lines().into_iter().map(way).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Streets above the ground, over all that they pass: an abutment-dark edge, the deck with its sidewalks, the carriageway.
+//! Streets and ways for walkers above the ground, over all that they pass: an abutment-dark edge, the deck with its sidewalks, the carriageway.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -6,6 +6,7 @@ use std::fmt;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side, polyline};
 
+use super::footways;
 use super::page::Page;
 use super::path::Pen;
 use super::streets::middle_of_carriageway;
@@ -17,13 +18,16 @@ use crate::City;
 const EDGE: f64 = 2.2;
 
 pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Result {
-    let levels: BTreeSet<i8> =
-        city.network.roads.iter().map(|road| road.level).filter(|level| *level > 0).collect();
+    let network = &city.network;
+    let all =
+        network.roads.iter().map(|road| road.level).chain(network.footpaths.iter().map(|way| way.level));
+    let levels: BTreeSet<i8> = all.filter(|level| *level > 0).collect();
     for level in levels {
         writeln!(f, r#"<g id="bridges-{level}" fill="none" stroke-linejoin="round">"#)?;
         let roads = || city.network.roads.iter().enumerate().filter(|(_, road)| road.level == level);
         // All edges first, so that decks that meet are one.
         for edge in [true, false] {
+            footways::decks(f, page, city, level, edge)?;
             for (index, road) in roads() {
                 let deck = deck(&city.network, RoadId::from_index(index)) * page.scale;
                 let style = road_style(road.class);

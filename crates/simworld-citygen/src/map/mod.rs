@@ -6,6 +6,7 @@
 
 mod bridges;
 mod buildings;
+mod footways;
 mod furniture;
 mod ground;
 mod labels;
@@ -123,6 +124,7 @@ impl fmt::Display for MapDrawing<'_> {
         ground::draw(f, &page, &land)?;
         streets::draw(f, &page, self.city)?;
         buildings::draw(f, &page, self.city)?;
+        footways::passages(f, &page, self.city)?;
         // The group of the city.
         writeln!(f, "</g>")?;
         self.draw_trails(f, &page)?;

@@ -9,7 +9,7 @@ use simworld_core::net::{Road, Sidewalk, polyline};
 use super::page::Page;
 use super::path::Pen;
 use super::style::{CASING, ROADS, RoadStyle, SIDEWALK};
-use super::{bridges, strips, tunnels};
+use super::{bridges, footways, strips, tunnels};
 use crate::City;
 
 /// Sidewalks narrower than this on paper are left out, mm.
@@ -31,6 +31,7 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt:
     writeln!(f, "</g>")?;
     strips::draw(f, page, city, |road| road.level == 0)?;
     crossings(f, page, city)?;
+    footways::subways(f, page, city)?;
     bridges::draw(f, page, city)
 }
 
@@ -122,7 +123,7 @@ fn sidewalks(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Resul
     for sidewalk in city.network.sidewalks.iter().filter(is_on_ground) {
         draw(&sidewalk.path, sidewalk.width);
     }
-    for way in &city.network.footpaths {
+    for way in city.network.footpaths.iter().filter(|way| way.level == 0) {
         draw(&way.path, way.width);
     }
     let usual = city.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);

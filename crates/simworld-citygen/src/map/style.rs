@@ -16,6 +16,8 @@ pub(super) const BLOCK: &str = "#f3efe4";
 pub(super) const SIDEWALK: &str = "#e2ddd0";
 /// The edges of bridges.
 pub(super) const BRIDGE_EDGE: &str = "#6e675b";
+/// Ways for walkers below what is drawn over them.
+pub(super) const PASSAGE: &str = "#8d8271";
 /// Crowns of trees.
 pub(super) const TREE: &str = "#8fb07a";
 /// Lettering and frames.

@@ -92,6 +92,7 @@ keys! {
     ParkingLaneRight = "parking:lane:right",
     ParkingLeft = "parking:left",
     ParkingRight = "parking:right",
+    Place = "place",
     Restriction = "restriction",
     RoofShape = "roof:shape",
     Service = "service",
@@ -185,6 +186,11 @@ impl<'a> Tags<'a> {
     /// Whether a key stands there with another value than `no`.
     pub(super) fn has(&self, key: Key) -> bool {
         self.get(key).is_some_and(|value| value != "no" && !value.is_empty())
+    }
+
+    /// Whether nothing but this key says something.
+    pub(super) fn is_alone(&self, key: Key) -> bool {
+        self.entries.iter().all(|(known, ..)| *known == key)
     }
 
     /// A whole number; the first of a list such as `2;3`.

@@ -81,10 +81,10 @@ impl Parts<'_> {
         crossings.filter(move |crossing| is_named || self.has_road(crossing.road))
     }
 
-    /// The ways for walkers alone; tiles have none.
+    /// The ways for walkers alone that lie on the ground; tiles have none.
     pub(super) fn footpaths(&self) -> impl Iterator<Item = &Footpath> {
         let numbers = self.scope.numbers(self.network.footpaths.len(), |touched| &touched.footpaths);
-        numbers.into_iter().map(|number| &self.network.footpaths[number])
+        numbers.into_iter().map(|number| &self.network.footpaths[number]).filter(|way| way.level == 0)
     }
 
     /// The walkways along streets and round corners, and the width of each. Decks carry their own.

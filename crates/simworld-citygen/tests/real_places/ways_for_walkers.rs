@@ -13,12 +13,12 @@ use simworld_core::net::{
 };
 use simworld_core::seed::Seed;
 
-const SIDE: [(&str, &str); 1] = [("highway", "residential")];
-const FOOT: [(&str, &str); 1] = [("highway", "footway")];
+pub(crate) const SIDE: [(&str, &str); 1] = [("highway", "residential")];
+pub(crate) const FOOT: [(&str, &str); 1] = [("highway", "footway")];
 
 /// A block of 200 by 120 m about the origin, between streets that go on at its corners. Nodes 2 and 5 lie in the middle of
 /// its long sides.
-fn block() -> Sketch {
+pub(crate) fn block() -> Sketch {
     let nodes = [(-100.0, -60.0), (0.0, -60.0), (100.0, -60.0), (100.0, 60.0), (0.0, 60.0), (-100.0, 60.0)];
     let far = [(-180.0, -60.0), (180.0, -60.0), (180.0, 60.0), (-180.0, 60.0)];
     let mut sketch = Sketch::default();
@@ -28,7 +28,7 @@ fn block() -> Sketch {
     sketch.way(&[7, 1, 2, 3, 8], &SIDE).way(&[10, 6, 5, 4, 9], &SIDE).way(&[1, 6], &SIDE).way(&[3, 4], &SIDE)
 }
 
-fn built(sketch: &Sketch) -> City {
+pub(crate) fn built(sketch: &Sketch) -> City {
     let made = City::from_place(&sketch.place(), &PlaceOptions::default(), &CityConfig::default(), Seed(1));
     made.expect("it has streets").0
 }
@@ -39,13 +39,13 @@ fn walked(city: &City) -> f64 {
 }
 
 /// A point about every metre of a line.
-fn samples(path: &[Point2]) -> Vec<Point2> {
+pub(crate) fn samples(path: &[Point2]) -> Vec<Point2> {
     let length = polyline::length(path);
     let count = length.ceil().max(1.0);
     (0..=count as u32).map(|index| polyline::at(path, length * f64::from(index) / count).0).collect()
 }
 
-fn distance(path: &[Point2], point: &Point2) -> f64 {
+pub(crate) fn distance(path: &[Point2], point: &Point2) -> f64 {
     polyline::closest(path, point).map_or(f64::INFINITY, |near| near.distance)
 }
 
@@ -63,8 +63,8 @@ fn is_near((low, high): (Point2, Point2), point: &Point2) -> bool {
     (low.x - 30.0..=high.x + 30.0).contains(&point.x) && (low.y - 30.0..=high.y + 30.0).contains(&point.y)
 }
 
-/// Nowhere on a carriageway or a junction of the ground, and every end that joins lies on a sidewalk.
-fn assert_beside_roads(network: &RoadNetwork, name: &str) {
+/// Nowhere on a carriageway or a junction of the ground, but for bridges and subways, and every end that joins lies on a sidewalk.
+pub(crate) fn assert_beside_roads(network: &RoadNetwork, name: &str) {
     /// Where maps and kerbs touch, m.
     const HAIR: f64 = 0.3;
     let roads = network.roads.iter().filter(|road| road.level == 0);
@@ -72,7 +72,8 @@ fn assert_beside_roads(network: &RoadNetwork, name: &str) {
     let on_ground = |road: &RoadId| network.roads[road.index()].level == 0;
     let places = network.intersections.iter().filter(|place| place.roads.iter().any(on_ground));
     let places: Vec<_> = places.filter_map(|place| Some((place, bounds(&place.outline)?))).collect();
-    for point in network.footpaths.iter().flat_map(|way| samples(&way.path)) {
+    let on_the_ground = network.footpaths.iter().filter(|way| way.level == 0);
+    for point in on_the_ground.flat_map(|way| samples(&way.path)) {
         for (road, _) in roads.iter().filter(|(_, around)| is_near(*around, &point)) {
             let Some(near) = polyline::closest(&road.centerline, &point) else { continue };
             let kerb = if near.lateral > 0.0 { road.left_kerb } else { road.right_kerb };
@@ -99,7 +100,7 @@ fn assert_beside_roads(network: &RoadNetwork, name: &str) {
 }
 
 /// From every way for walkers one comes to a sidewalk.
-fn assert_reached(network: &RoadNetwork, name: &str) {
+pub(crate) fn assert_reached(network: &RoadNetwork, name: &str) {
     let graph = WaypointGraph::walkable(network, &WaypointConfig::default()).unwrap();
     let count = graph.waypoints().len();
     let all = || (0..count).map(WaypointId::from_index);
@@ -118,7 +119,7 @@ fn assert_reached(network: &RoadNetwork, name: &str) {
 }
 
 /// The length of the way from the sidewalk at one node to that at another, m.
-fn route(city: &City, from: Point2, to: Point2) -> f64 {
+pub(crate) fn route(city: &City, from: Point2, to: Point2) -> f64 {
     let graph = WaypointGraph::walkable(&city.network, &WaypointConfig::default()).unwrap();
     let (from, to) = (graph.nearest(from).unwrap(), graph.nearest(to).unwrap());
     let (mut scratch, mut route) = (RouteScratch::default(), Route::default());
@@ -221,7 +222,7 @@ fn a_way_is_cut_off_where_a_road_or_a_building_lies() {
 }
 
 #[test]
-fn only_ways_for_walkers_on_the_ground_are_built() {
+fn only_ways_for_walkers_are_built() {
     let with = |tags: &[(&str, &str)]| built(&block().way(&[2, 5], tags)).network.footpaths.len();
     for highway in ["footway", "path", "pedestrian", "steps"] {
         assert_eq!(with(&[("highway", highway)]), 1, "{highway}");
@@ -231,9 +232,6 @@ fn only_ways_for_walkers_on_the_ground_are_built() {
         ("footway", "sidewalk"),
         ("footway", "crossing"),
         ("area", "yes"),
-        ("bridge", "yes"),
-        ("tunnel", "yes"),
-        ("layer", "-1"),
         ("indoor", "yes"),
         ("access", "private"),
         ("foot", "no"),

@@ -294,9 +294,10 @@ pub struct Crossing {
     pub signal: Option<SignalGroup>,
 }
 
-/// A way for walkers alone, away from streets: a trail, a field path, a lane of steps.
+/// A way for walkers alone, away from streets: a trail, a field path, a lane of steps, a footbridge.
 ///
-/// It has no lanes and no kerb. Ways that share an end meet there; an end that joins leads on to a sidewalk near it.
+/// It has no lanes and no kerb. Ways that share an end meet there, on whatever level they are; an end that joins leads on to
+/// a sidewalk near it. Where lines merely cross nobody comes from one to the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Footpath {
     /// Its middle, from end to end, at least two points, m.
@@ -305,6 +306,12 @@ pub struct Footpath {
     pub width: f64,
     /// Whether its beginning and its end lead on to the nearest sidewalk, if one is within 15 m.
     pub joins: [bool; 2],
+    /// 0 on the ground, above it on footbridges, below it in subways.
+    #[serde(default)]
+    pub level: i8,
+    /// Whether something is built over it: a passage through a building, an arcade.
+    #[serde(default)]
+    pub covered: bool,
 }
 
 /// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.

@@ -66,7 +66,13 @@ fn who_is_sent_arrives_and_nobody_is_lost() {
 fn grid_with_a_footpath() -> Arc<RoadNetwork> {
     let mut network = RoadNetwork::clone(&grid());
     let at = |y: f64| Point2::new(55.3, y);
-    let piece = |from: f64, to: f64, joins| Footpath { path: vec![at(from), at(to)], width: 3.0, joins };
+    let piece = |from: f64, to: f64, joins| Footpath {
+        path: vec![at(from), at(to)],
+        width: 3.0,
+        joins,
+        level: 0,
+        covered: false,
+    };
     network.footpaths = vec![piece(7.1, 51.7, [true, false]), piece(51.7, 102.9, [false, true])];
     network.check().unwrap();
     Arc::new(network)

@@ -15,7 +15,7 @@ const BEFORE: u32 = VERSION - 1;
 const CHUNK: usize = 1 << 16;
 
 /// What a section holds.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tag {
     Head = 1,
     Plan,
@@ -30,12 +30,14 @@ pub(super) enum Tag {
     Signals,
     Names,
     Footpaths,
+    /// As before there were sections after ways for walkers.
     End,
+    Levels,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 14] = [
+    const ALL: [(Self, &'static str); 15] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
         (Self::Buildings, "the buildings"),
@@ -49,11 +51,17 @@ impl Tag {
         (Self::Signals, "the signal plans"),
         (Self::Names, "the street names"),
         (Self::Footpaths, "the ways for walkers"),
+        (Self::Levels, "the ways for walkers off the ground"),
         (Self::End, "the end"),
     ];
 
     pub(super) fn name(self) -> &'static str {
-        Self::ALL[self as usize - 1].1
+        Self::ALL[self.rank()].1
+    }
+
+    /// Its place in the order of a file; each of them has one.
+    fn rank(self) -> usize {
+        Self::ALL.iter().position(|(tag, _)| *tag == self).unwrap_or(Self::ALL.len() - 1)
     }
 
     /// The tag of a number in a file of some version.
@@ -160,7 +168,7 @@ impl<'a> Sections<'a> {
             let tag = Tag::from_number(u32::from_le_bytes(rest.take(within)?), version);
             let tag =
                 tag.ok_or(SaveError::Section { found: "an unknown section", expected: "a known one" })?;
-            if let Some(before) = found.last().filter(|before| before.tag > tag) {
+            if let Some(before) = found.last().filter(|before| before.tag.rank() > tag.rank()) {
                 return Err(SaveError::Section { found: tag.name(), expected: before.tag.name() });
             }
             let length = u64::from_le_bytes(rest.take(tag.name())?);
@@ -179,6 +187,11 @@ impl<'a> Sections<'a> {
     /// Whether the file is of the version of before.
     pub(super) fn are_of_before(&self) -> bool {
         self.version == BEFORE
+    }
+
+    /// Whether there is a section of a kind; some are left out where they would say nothing.
+    pub(super) fn have(&self, tag: Tag) -> bool {
+        self.found.iter().any(|section| section.tag == tag)
     }
 
     /// The content of the one section of a kind.

@@ -3,7 +3,7 @@
 //! Saved is what a city is made of: configuration, plan, buildings, elements, ways for walkers, and the road network too,
 //! although it follows from the plan: to read it is several times faster than to derive it, and a city stays what it was
 //! when a later version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame
-//! are little-endian.
+//! are little-endian. A section for ways for walkers off the open ground is there only where a city has some.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -18,6 +18,7 @@ mod before;
 mod check;
 mod frame;
 mod source;
+mod walks;
 
 use std::io::Write;
 use std::path::Path;
@@ -205,7 +206,7 @@ impl City {
         frames.list(Tag::Crossings, &network.crossings)?;
         frames.list(Tag::Signals, &network.signals)?;
         frames.list(Tag::Names, &network.names)?;
-        frames.list(Tag::Footpaths, &network.footpaths)?;
+        walks::write(&mut frames, &network.footpaths)?;
         frames.end()
     }
 
@@ -311,7 +312,7 @@ fn read_network(
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
         names: sections.list(Tag::Names, counts.names)?,
-        footpaths: sections.list(Tag::Footpaths, counts.footpaths)?,
+        footpaths: walks::read(sections, counts.footpaths)?,
     };
     network.check()?;
     Ok(network)

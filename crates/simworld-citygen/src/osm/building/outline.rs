@@ -177,7 +177,12 @@ fn assemble(place: &Place, relation: &Relation, found: &mut Vec<Outline>, warnin
 }
 
 /// The closed rows of nodes that the ways of one role make; ways are joined end to end.
-fn rings(place: &Place, relation: &Relation, wants_inner: bool, is_whole: &mut bool) -> Vec<Vec<u32>> {
+pub(in crate::osm) fn rings(
+    place: &Place,
+    relation: &Relation,
+    wants_inner: bool,
+    is_whole: &mut bool,
+) -> Vec<Vec<u32>> {
     /// Ways in one role that are joined at most; each is looked for among the rest.
     const MOST_WAYS: usize = 500;
     let raw = &place.raw;

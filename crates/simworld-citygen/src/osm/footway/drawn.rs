@@ -1,8 +1,13 @@
 //! Which ways are for walkers alone, split where they meet.
 
+use std::collections::BTreeSet;
+
 use simworld_core::geometry::Point2;
 
+use super::area::{self, Area};
+use super::passed;
 use super::square::Square;
+use crate::osm::error::Warning;
 use crate::osm::place::Place;
 use crate::osm::raw::{MISSING, Way};
 use crate::osm::street;
@@ -14,36 +19,65 @@ const KINDS: [(&str, f64); 4] = [("footway", 2.0), ("path", 1.5), ("pedestrian",
 /// Narrowest and widest way, m.
 const WIDTHS: (f64, f64) = (0.8, 12.0);
 
+/// So often a way counts at its end where no other meets it.
+const ITS_OWN: u8 = 2;
+
 /// A piece of a way between two places where it may meet others.
 pub(super) struct Drawn {
+    /// The number of its way.
+    pub(super) way: i64,
     /// At least two points, m.
     pub(super) path: Vec<Point2>,
     /// The nodes at its ends.
     pub(super) ends: [u32; 2],
-    /// Whether the map joins its ends to something else than ways for walkers: a street, its sidewalk or its crossing.
-    pub(super) meets: [bool; 2],
+    /// Where the map joins its ends to something else than ways for walkers: the level of the street, of its sidewalk or of
+    /// its crossing.
+    pub(super) meets: [Option<i8>; 2],
+    /// Whether its ends lie where a way that is built over begins, ends or goes on.
+    pub(super) gates: [bool; 2],
+    pub(super) walk: Walk,
+}
+
+/// What a way for walkers alone is like.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Walk {
     /// Width, m.
     pub(super) width: f64,
+    /// Above or below the ground.
+    pub(super) level: i8,
+    /// Whether something is built over it.
+    pub(super) is_covered: bool,
 }
 
-impl Drawn {
-    fn new(path: Vec<Point2>, ends: [u32; 2], width: f64, others: &[bool]) -> Self {
-        let meets = ends.map(|node| others.get(node as usize) == Some(&true));
-        Self { path, ends, meets, width }
-    }
-}
+/// A way that is a line.
+pub(super) type Line<'a> = (&'a Way, Walk);
 
-/// All ways for walkers that lie on the ground, and those on which they cross squares.
-pub(super) fn of(place: &Place) -> Vec<Drawn> {
+/// All ways for walkers, and those on which they cross squares.
+pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
     let wanted = place.raw.ways().iter().filter_map(|way| {
         let tags = place.raw.way_tags(way);
-        Some((way, width_of(&tags)?, tags.is(Key::Area, "yes")))
+        Some((way, walk_of(&tags)?, tags.is(Key::Area, "yes")))
     });
     let (areas, lines): (Vec<_>, Vec<_>) = wanted.partition(|(.., is_area)| *is_area);
-    let mut met =
-        Met { lines: street::uses(place, lines.iter().map(|(way, ..)| *way)), others: others(place) };
+    let areas: Vec<Line<'_>> = areas.into_iter().map(|(way, walk, _)| (way, walk)).collect();
+    let areas = area::areas(place, &areas, warnings);
+    let (areas, off_ground): (Vec<_>, Vec<_>) = areas.into_iter().partition(|area| area.walk.level == 0);
+    let lines: Vec<Line<'_>> = lines.into_iter().map(|(way, walk, _)| (way, walk)).collect();
+    let passed = passed::of(place, &lines, &areas, warnings);
+    let covered = lines.iter().filter(|(_, walk)| walk.is_covered);
+    let mut met = Met {
+        lines: street::uses(place, lines.iter().map(|(way, _)| *way)),
+        others: others(place),
+        gates: covered.flat_map(|(way, _)| place.raw.nodes_of(way)).copied().collect(),
+    };
+    // Nobody crosses a square above the ground: what comes to it ends there.
+    for area in &off_ground {
+        met.pass(&area.edge, area.walk.level);
+    }
+    met.part(&passed);
     let mut drawn = across(place, &areas, &mut met);
-    for (way, width, _) in lines {
+    met.part(&passed);
+    for (way, walk) in lines {
         let is_there = |node: &u32| place.point(*node).is_some();
         for run in place.raw.nodes_of(way).chunk_by(|a, b| is_there(a) == is_there(b)) {
             let mut start = 0;
@@ -55,7 +89,7 @@ pub(super) fn of(place: &Place) -> Vec<Drawn> {
                     run[start..=index].iter().filter_map(|node| place.point(*node)).collect();
                 path.dedup();
                 if path.len() >= 2 {
-                    drawn.push(Drawn::new(path, [run[start], run[index]], width, &met.others));
+                    drawn.push(met.drawn(way.id, path, [run[start], run[index]], walk));
                 }
                 start = index;
             }
@@ -69,48 +103,70 @@ struct Met {
     /// How often ways for walkers alone pass it; their ends and edges of squares count twice, so that two and more is where
     /// they are split.
     lines: Vec<u8>,
-    /// Whether a way of traffic does that is none for walkers alone.
-    others: Vec<bool>,
+    /// The level of a way of traffic that is none for walkers alone.
+    others: Vec<Option<i8>>,
+    /// Nodes of ways that are built over.
+    gates: BTreeSet<u32>,
 }
 
 impl Met {
-    /// What is no way for walkers after all passes some nodes.
-    fn pass(&mut self, nodes: &[u32]) {
-        for node in nodes.iter().filter(|node| **node != MISSING) {
-            self.others[*node as usize] = true;
+    /// Nothing is split where ways pass each other without meeting.
+    fn part(&mut self, passed: &BTreeSet<u32>) {
+        for node in passed {
+            self.lines[*node as usize] = 0;
         }
+    }
+
+    /// What is no way for walkers after all passes some nodes.
+    fn pass(&mut self, nodes: &[u32], level: i8) {
+        for node in nodes.iter().filter(|node| **node != MISSING) {
+            put_other(&mut self.others, *node, level);
+        }
+    }
+
+    fn drawn(&self, way: i64, path: Vec<Point2>, ends: [u32; 2], walk: Walk) -> Drawn {
+        // A bridge, a subway or a passage that ends by itself opens on what lies before it.
+        let opens = |node: u32| {
+            (walk.level != 0 || walk.is_covered) && self.lines.get(node as usize) == Some(&ITS_OWN)
+        };
+        let meets = ends.map(|node| {
+            let other = self.others.get(node as usize).copied().flatten();
+            other.or_else(|| opens(node).then_some(0))
+        });
+        let gates = ends.map(|node| self.gates.contains(&node));
+        Drawn { way, path, ends, meets, gates, walk }
     }
 }
 
 /// The lines across squares, between the places where other ways meet their edges.
-fn across(place: &Place, areas: &[(&Way, f64, bool)], met: &mut Met) -> Vec<Drawn> {
+fn across(place: &Place, areas: &[Area], met: &mut Met) -> Vec<Drawn> {
     let mut edges = vec![0_u8; met.lines.len()];
     let mut squares = Vec::new();
-    for (way, width, _) in areas {
-        match Square::of(place, way) {
-            Some(square) => squares.push((square, *width)),
-            None => met.pass(place.raw.nodes_of(way)),
+    for area in areas {
+        match Square::of(place, area) {
+            Some(square) => squares.push((square, area.id, area.walk)),
+            None => met.pass(&area.edge, area.walk.level),
         }
     }
-    for node in squares.iter().flat_map(|(square, _)| square.nodes) {
+    for node in squares.iter().flat_map(|(square, ..)| &square.nodes).filter(|node| **node != MISSING) {
         let count = &mut edges[*node as usize];
         *count = count.saturating_add(1);
     }
     let mut drawn = Vec::new();
-    for (square, width) in &squares {
+    for (square, way, walk) in &squares {
         let is_entrance = |node: u32| {
             let node = node as usize;
-            met.lines[node] > 0 || met.others[node] || edges[node] > 1
+            met.lines[node] > 0 || met.others[node].is_some() || edges[node] > 1
         };
         let lines = square.lines(is_entrance);
         if lines.is_empty() {
             // Who comes to it goes on beside it.
-            met.pass(square.nodes);
+            met.pass(&square.nodes, walk.level);
         }
         for line in lines {
             let (path, ends) = (line.map(|end| square.corner(end)), line.map(|end| square.nodes[end]));
             if path[0] != path[1] {
-                drawn.push(Drawn::new(path.to_vec(), ends, *width, &met.others));
+                drawn.push(met.drawn(*way, path.to_vec(), ends, *walk));
             }
         }
     }
@@ -120,31 +176,50 @@ fn across(place: &Place, areas: &[(&Way, f64, bool)], met: &mut Met) -> Vec<Draw
     drawn
 }
 
-/// The nodes of all ways of traffic that are none for walkers alone.
-fn others(place: &Place) -> Vec<bool> {
-    let mut met = vec![false; place.raw.node_count()];
+/// For each node the level of a way of traffic that is none for walkers alone, if one passes it.
+fn others(place: &Place) -> Vec<Option<i8>> {
+    let mut met = vec![None; place.raw.node_count()];
     for way in place.raw.ways() {
         let tags = place.raw.way_tags(way);
-        if tags.get(Key::Highway).is_some() && width_of(&tags).is_none() {
+        if tags.get(Key::Highway).is_some() && walk_of(&tags).is_none() {
             for node in place.raw.nodes_of(way).iter().filter(|node| **node != MISSING) {
-                met[*node as usize] = true;
+                put_other(&mut met, *node, street::level(&tags));
             }
         }
     }
     met
 }
 
-/// Width of a way for walkers alone that lies on the ground, m; none of other ways.
-fn width_of(tags: &Tags<'_>) -> Option<f64> {
+/// Of several ways at a node the one nearest to the ground says its level.
+fn put_other(others: &mut [Option<i8>], node: u32, level: i8) {
+    let known = &mut others[node as usize];
+    if known.is_none_or(|known| known.abs() > level.abs()) {
+        *known = Some(level);
+    }
+}
+
+impl Walk {
+    /// What a square is like that is said to be nothing else; none if nobody may enter.
+    pub(super) fn of_square(tags: &Tags<'_>) -> Option<Self> {
+        walk_as("pedestrian", tags)
+    }
+}
+
+/// What a way for walkers alone is like; none of other ways.
+pub(super) fn walk_of(tags: &Tags<'_>) -> Option<Walk> {
+    walk_as(tags.get(Key::Highway)?, tags)
+}
+
+fn walk_as(highway: &str, tags: &Tags<'_>) -> Option<Walk> {
     /// What the streets have by themselves: <https://wiki.openstreetmap.org/wiki/Key:footway>.
     const OF_STREETS: [&str; 3] = ["sidewalk", "crossing", "traffic_island"];
     const CLOSED: [&str; 2] = ["no", "private"];
-    let highway = tags.get(Key::Highway)?;
     let (_, usual) = KINDS.iter().find(|(value, _)| *value == highway)?;
     let access = tags.get(Key::Foot).or_else(|| tags.get(Key::Access));
     let is_left_out = tags.is_any(Key::Footway, &OF_STREETS)
         || access.is_some_and(|access| CLOSED.contains(&access))
-        || tags.has(Key::Indoor)
-        || street::level(tags) != 0;
-    (!is_left_out).then(|| tags.metres(Key::Width).unwrap_or(*usual).clamp(WIDTHS.0, WIDTHS.1))
+        || tags.has(Key::Indoor);
+    let width = tags.metres(Key::Width).unwrap_or(*usual).clamp(WIDTHS.0, WIDTHS.1);
+    let is_covered = tags.has(Key::Covered) || tags.is(Key::Tunnel, "building_passage");
+    (!is_left_out).then_some(Walk { width, level: street::level(tags), is_covered })
 }

@@ -1,6 +1,7 @@
 //! Where nobody lays a way for walkers: on the land of roads and in buildings.
 
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::RoadId;
 use simworld_core::net::{Road, RoadNetwork};
 
 use crate::building::{Building, Surveyed};
@@ -26,11 +27,18 @@ pub(super) struct Land {
 }
 
 impl Land {
-    /// The land that somebody who walks where the mask says may come to.
-    pub(super) fn of(network: &RoadNetwork, buildings: &[Building], mask: &Mask) -> Self {
+    /// The land of a level that somebody who walks where the mask says may come to. Buildings are in nobody's way but on the
+    /// ground, and so are junctions at the ends of bridges and tunnels.
+    pub(super) fn of(network: &RoadNetwork, buildings: &[Building], mask: &Mask, level: i8) -> Self {
         let (mut driven, mut beside, mut walls) =
             (Occupancy::default(), Occupancy::default(), Occupancy::default());
-        let near = Near::of(network, |road| network.roads[road.index()].level == 0, mask, FOLLOWS + HALF);
+        let is_level = |road: &RoadId| network.roads[road.index()].level == level;
+        let mut near = Near::of(network, |road| is_level(&road), mask, FOLLOWS + HALF);
+        if level != 0 {
+            for (is_near, place) in near.junctions.iter_mut().zip(&network.intersections) {
+                *is_near &= place.roads.iter().all(is_level);
+            }
+        }
         for (road, _) in network.roads.iter().zip(&near.roads).filter(|(_, is_near)| **is_near) {
             take_carriageway(road, &mut driven);
             for walk in road.sidewalks.iter().flatten().map(|walk| &network.sidewalks[walk.index()]) {
@@ -44,18 +52,24 @@ impl Land {
             let reach = intersection_walk(network, &place.roads) * 0.5 + FOLLOWS;
             place.corners.iter().for_each(|corner| beside.add_path(corner, (reach, reach)));
         }
-        buildings.iter().flat_map(Building::ground).for_each(|piece| walls.add(&piece));
+        let on_ground = if level == 0 { buildings } else { &[] };
+        on_ground.iter().flat_map(Building::ground).for_each(|piece| walls.add(&piece));
         Self { roads: near.land(network), driven, walls, beside }
     }
 
-    /// Whether a straight piece lies on nobody's land.
-    pub(super) fn is_open(&self, a: Point2, b: Point2) -> bool {
-        is_free(&[&self.roads, &self.driven, &self.walls], a, b)
+    /// Whether a straight piece lies beside the roads.
+    pub(super) fn is_off_roads(&self, a: Point2, b: Point2) -> bool {
+        is_free(&[&self.roads, &self.driven], a, b)
     }
 
-    /// Whether a straight piece crosses nothing that is driven on, and no wall.
+    /// Whether a straight piece lies in no building.
+    pub(super) fn is_outside(&self, a: Point2, b: Point2) -> bool {
+        is_free(&[&self.walls], a, b)
+    }
+
+    /// Whether a straight piece crosses nothing that is driven on.
     pub(super) fn is_clear(&self, a: Point2, b: Point2) -> bool {
-        is_free(&[&self.driven, &self.walls], a, b)
+        is_free(&[&self.driven], a, b)
     }
 
     /// Whether a straight piece lies right beside a sidewalk, at least in part.

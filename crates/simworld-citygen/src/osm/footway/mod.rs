@@ -1,30 +1,32 @@
 //! Ways for walkers alone: footways, paths, steps and pedestrian streets of the map, cut off where roads lie and buildings
 //! stand, and joined to the sidewalks where they meet them.
 //!
-//! Sidewalks and crossings that are drawn as ways of their own are those of the streets, so that they are left out, and so
-//! is what follows a sidewalk without saying so. Squares, bridges, tunnels and what nobody may enter are no ways here.
+//! Footbridges and subways pass what lies on other levels, passages the buildings that stand over them; all of them meet
+//! others at their ends. Sidewalks and crossings that are drawn as ways of their own are those of the streets, so that they
+//! are left out, and so is what follows a sidewalk without saying so, and what nobody may enter.
 
+mod area;
 mod cut;
 mod drawn;
 mod land;
+mod levels;
+mod passed;
 mod square;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::geometry::Point2;
 use simworld_core::net::{Footpath, RoadNetwork, polyline};
 
-use super::mask::Mask;
+use super::error::{OsmId, Warning};
 use super::place::Place;
+use super::raw::MISSING;
 use crate::building::Building;
-use crate::doors::{Door, Doors};
 use crate::occupancy::Occupancy;
 use cut::Run;
-use drawn::Drawn;
+use drawn::{Drawn, Walk};
 use land::Land;
+use levels::{Exit, Levels};
 
-/// A way that ends no farther from a sidewalk leads on to it, m, if nothing lies between.
-const JOINS: f64 = 10.0;
 /// What is shorter once it is cut off is left out, m.
 const SHORTEST: f64 = 2.0;
 /// Points nearer than this are one, m.
@@ -32,32 +34,29 @@ const SAME: f64 = 1e-6;
 
 /// The ways for walkers of a place, between its roads and its buildings; those from which no sidewalk is reached are left
 /// out.
-pub(super) fn paths(place: &Place, network: &RoadNetwork, buildings: &[Building]) -> Vec<Footpath> {
-    let drawn = drawn::of(place);
+pub(super) fn paths(
+    place: &Place,
+    network: &RoadNetwork,
+    buildings: &[Building],
+    warnings: &mut Vec<Warning>,
+) -> Vec<Footpath> {
+    let drawn = drawn::of(place, warnings);
     if drawn.is_empty() {
         return Vec::new();
     }
-    let mut mask = Mask::new();
-    drawn.iter().flat_map(|way| way.path.windows(2)).for_each(|piece| mask.mark(piece, JOINS));
-    let land = Land::of(network, buildings, &mask);
-    let doors = Doors::of_some(network, JOINS, |walk| mask.touches_path(&walk.path, 0.0));
-    let door = |at: &Point2| {
-        let door = doors.nearest(network, *at)?;
-        let is_level = network.roads[door.road.index()].level == 0;
-        (is_level && land.is_clear(*at, door.at)).then_some(door)
-    };
+    let levels = Levels::of(network, buildings, &drawn);
     let mut given_up: BTreeSet<u32> = BTreeSet::new();
     let mut kept = Vec::new();
     for way in &drawn {
-        for run in cut::open_runs(&way.path, |a, b| land.is_open(a, b)) {
-            let ends = [run.path[0], run.path[run.path.len() - 1]];
-            let piece = Piece { way, doors: [door(&ends[0]), door(&ends[1])], run };
-            if piece.is_worth_it(&land) {
+        for open in levels.runs(way) {
+            let piece = Piece { way, exits: levels.exits(way, &open), run: open.run };
+            if piece.is_worth_it(levels.land(way.walk.level)) {
                 kept.push(piece);
             } else {
                 // What met it there goes on to the sidewalk instead.
                 let ends = way.ends.into_iter().zip(piece.run.cut);
-                given_up.extend(ends.filter(|(_, is_cut)| !is_cut).map(|(node, _)| node));
+                let ends = ends.filter(|(node, is_cut)| !is_cut && *node != MISSING);
+                given_up.extend(ends.map(|(node, _)| node));
             }
         }
     }
@@ -65,21 +64,34 @@ pub(super) fn paths(place: &Place, network: &RoadNetwork, buildings: &[Building]
     for piece in kept {
         laid.add(piece, &given_up);
     }
-    reached(laid.paths)
+    reached(place, laid, warnings)
 }
 
-/// Takes the land of ways for walkers, so that nothing generated stands on them.
+/// Takes the land of ways for walkers, so that nothing generated stands on them. What lies below others may stand on the
+/// ground above.
 pub(super) fn take(paths: &[Footpath], taken: &mut Occupancy) {
-    for way in paths {
+    for way in paths.iter().filter(|way| way.level == 0) {
         taken.add_path(&way.path, (way.width * 0.5, way.width * 0.5));
     }
+}
+
+/// Of generated buildings those that rise through no footbridge.
+pub(super) fn below_none(paths: &[Footpath], mut buildings: Vec<Building>) -> Vec<Building> {
+    let mut decks = Occupancy::default();
+    for way in paths.iter().filter(|way| way.level > 0) {
+        decks.add_path(&way.path, (way.width * 0.5, way.width * 0.5));
+    }
+    if !decks.is_empty() {
+        buildings.retain(|building| building.ground().iter().all(|piece| decks.is_free(piece)));
+    }
+    buildings
 }
 
 /// An open part of a way, and the sidewalks that are near its ends.
 struct Piece<'a> {
     way: &'a Drawn,
     run: Run,
-    doors: [Option<Door>; 2],
+    exits: [Option<Exit>; 2],
 }
 
 impl Piece<'_> {
@@ -90,7 +102,7 @@ impl Piece<'_> {
         if is_cut && polyline::length(&self.run.path) < SHORTEST {
             return false;
         }
-        let is_link = matches!(self.doors, [Some(a), Some(b)] if a.road != b.road);
+        let is_link = matches!(self.exits, [Some((a, _)), Some((b, _))] if a.road != b.road);
         let places = cut::places(&self.run.path);
         is_link || !places.windows(2).all(|pair| land.is_beside_road(pair[0], pair[1]))
     }
@@ -100,19 +112,22 @@ impl Piece<'_> {
 #[derive(Default)]
 struct Laid {
     paths: Vec<Footpath>,
+    /// The numbers of the ways of which they are parts.
+    ways: Vec<i64>,
     /// Nodes from which a way leads on to a sidewalk.
     linked: BTreeSet<u32>,
 }
 
 impl Laid {
-    fn add(&mut self, Piece { way, run, doors }: Piece<'_>, given_up: &BTreeSet<u32>) {
+    fn add(&mut self, Piece { way, run, exits }: Piece<'_>, given_up: &BTreeSet<u32>) {
         let Run { mut path, cut } = run;
+        let Walk { width, level, is_covered } = way.walk;
         let ends = [path[0], path[path.len() - 1]];
         let mut joins = [false; 2];
-        for (end, door) in doors.into_iter().enumerate() {
+        for (end, exit) in exits.into_iter().enumerate() {
             let node = way.ends[end];
-            let is_met = cut[end] || way.meets[end] || given_up.contains(&node);
-            let Some(door) = door.filter(|_| is_met) else { continue };
+            let is_met = cut[end] || way.meets[end].is_some() || given_up.contains(&node);
+            let Some((door, exit_level)) = exit.filter(|_| is_met) else { continue };
             let is_there = (door.at - ends[end]).norm() <= SAME;
             if is_there {
                 joins[end] = true;
@@ -122,15 +137,18 @@ impl Laid {
             } else if self.linked.insert(node) {
                 // Others may end there, and share the end as it is.
                 let path = vec![ends[end], door.at];
-                self.paths.push(Footpath { path, width: way.width, joins: [false, true] });
+                let joins = [false, true];
+                self.paths.push(Footpath { path, width, joins, level: exit_level, covered: false });
+                self.ways.push(way.way);
             }
         }
-        self.paths.push(Footpath { path, width: way.width, joins });
+        self.paths.push(Footpath { path, width, joins, level, covered: is_covered });
+        self.ways.push(way.way);
     }
 }
 
-/// The ways from which one comes to a sidewalk.
-fn reached(mut paths: Vec<Footpath>) -> Vec<Footpath> {
+/// The ways from which one comes to a sidewalk; bridges, subways and passages from which none does are told.
+fn reached(place: &Place, Laid { mut paths, ways, .. }: Laid, warnings: &mut Vec<Warning>) -> Vec<Footpath> {
     let ends = |way: &Footpath| {
         [way.path.first(), way.path.last()].map(|end| end.map(|end| [end.x.to_bits(), end.y.to_bits()]))
     };
@@ -147,6 +165,20 @@ fn reached(mut paths: Vec<Footpath>) -> Vec<Footpath> {
             if !std::mem::replace(&mut is_reached[*other], true) {
                 open.push(*other);
             }
+        }
+    }
+    let mut told = BTreeSet::new();
+    for ((path, way), _) in paths.iter().zip(ways).zip(&is_reached).filter(|(_, is_reached)| !**is_reached) {
+        let kind = match (path.level, path.covered) {
+            (1.., _) => "footbridge",
+            (..=-1, _) => "subway",
+            (0, true) => "passage",
+            (0, false) => continue,
+        };
+        if told.insert(way) {
+            let what = format!("a {kind} from which no sidewalk is reached; left out");
+            let at = path.path.first().map(|at| place.geographic(*at));
+            warnings.push(Warning { what, element: Some(OsmId::Way(way)), at });
         }
     }
     let mut is_reached = is_reached.into_iter();

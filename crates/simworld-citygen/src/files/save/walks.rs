@@ -1,0 +1,71 @@
+//! Ways for walkers: as they were saved before they had levels, and a section of their own for those that lie off the ground
+//! or are built over. Where there are none that section is left out, so that the bytes are those of before.
+
+use std::io::Write;
+
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::Point2;
+use simworld_core::net::Footpath;
+
+use super::SaveError;
+use super::frame::{Sections, Tag, Writer};
+
+/// A way on the ground, as it is written.
+#[derive(Serialize)]
+struct Written<'a> {
+    path: &'a [Point2],
+    width: f64,
+    joins: [bool; 2],
+}
+
+/// And as it is read.
+#[derive(Deserialize)]
+struct Plain {
+    path: Vec<Point2>,
+    width: f64,
+    joins: [bool; 2],
+}
+
+/// What is not so of one of them.
+#[derive(Serialize, Deserialize)]
+struct OffGround {
+    /// Its index.
+    way: u32,
+    level: i8,
+    covered: bool,
+}
+
+pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, ways: &[Footpath]) -> Result<(), SaveError> {
+    let written: Vec<Written<'_>> =
+        ways.iter().map(|way| Written { path: &way.path, width: way.width, joins: way.joins }).collect();
+    frames.list(Tag::Footpaths, &written)?;
+    let off_ground = ways.iter().enumerate().filter(|(_, way)| way.level != 0 || way.covered);
+    let levels: Vec<OffGround> = off_ground
+        .map(|(index, way)| OffGround { way: index as u32, level: way.level, covered: way.covered })
+        .collect();
+    if levels.is_empty() { Ok(()) } else { frames.section(Tag::Levels, &levels) }
+}
+
+pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<Vec<Footpath>, SaveError> {
+    let plain: Vec<Plain> = sections.list(Tag::Footpaths, count)?;
+    let ways = plain.into_iter().map(|Plain { path, width, joins }| Footpath {
+        path,
+        width,
+        joins,
+        level: 0,
+        covered: false,
+    });
+    let mut ways: Vec<Footpath> = ways.collect();
+    let levels: Vec<OffGround> =
+        if sections.have(Tag::Levels) { sections.one(Tag::Levels)? } else { Vec::new() };
+    for OffGround { way: index, level, covered } in levels {
+        let lost = SaveError::Unsound {
+            what: Tag::Levels.name(),
+            index: index as usize,
+            fault: "refers to a way that is not there",
+        };
+        let way = ways.get_mut(index as usize).ok_or(lost)?;
+        (way.level, way.covered) = (level, covered);
+    }
+    Ok(ways)
+}
