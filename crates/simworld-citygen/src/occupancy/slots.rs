@@ -137,7 +137,8 @@ impl Slots {
     /// Empty, for about so many outlines.
     pub(super) fn with_capacity(outlines: usize) -> Self {
         let bits = bits_for(outlines);
-        let (heads, blocks) = (vec![NONE; 1 << (2 * bits)], Vec::with_capacity(outlines / 2));
+        // Half a block for each outline is too few for many tiles.
+        let (heads, blocks) = (vec![NONE; 1 << (2 * bits)], Vec::with_capacity(outlines / 4 * 3));
         Self { heads, blocks, large: Vec::new(), used: 0, bits }
     }
 
