@@ -12,7 +12,7 @@ use super::{ARCHETYPES, Archetype, Building, Footprint, access};
 use crate::BuildingConfig;
 use crate::key::stream_at;
 use crate::lot::{Land, Lot};
-use crate::occupancy::overlap;
+use crate::occupancy::{least, most, overlap};
 
 /// Kinds tried at random before the greedy filling.
 const TRIES: usize = 5;
@@ -229,16 +229,16 @@ impl<'a> Planner<'a> {
         (start, end): (f64, f64),
         rng: &mut StreamRng,
     ) -> Option<Spot> {
-        let deepest = self.deepest(site).min(kind.depth.1);
+        let deepest = least(self.deepest(site), kind.depth.1);
         if end - start < kind.width.0 || deepest < kind.depth.0 {
             return None;
         }
         for depth in [rng.uniform(kind.depth.0, deepest), kind.depth.0] {
             let Some((low, high)) = self.room(site, depth) else { continue };
-            let (low, high) = (low.max(start), high.min(end));
+            let (low, high) = (most(low, start), least(high, end));
             let room = high - low;
             if room >= kind.width.0 {
-                let width = room.min(kind.width.1);
+                let width = least(room, kind.width.1);
                 // What is too little for a neighbour is left on both sides.
                 let spare = room - width;
                 let x = if spare < self.most_spare() { low + spare * 0.5 } else { low };

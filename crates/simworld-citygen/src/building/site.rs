@@ -137,7 +137,7 @@ impl<'a> Site<'a> {
                 (near, low, high) = (least(near, inwards), least(low, station), most(high, station));
             }
             if near / length <= farthest {
-                sum += ((high / length).min(length) - (low / length).max(0.0)).max(0.0);
+                sum += most(least(high / length, length) - most(low / length, 0.0), 0.0);
             }
         }
         sum

@@ -65,11 +65,11 @@ fn think_of(outline: &[Point2], along: Border, spacing: f64, streams: Stream, tr
     if columns * rows > MOST_POINTS {
         return;
     }
-    let edges = edges(outline);
+    let (edges, mut row_edges) = (edges(outline), Beside::default());
     let mut rng = stream_at(low, 100.0, streams).rng();
     for row in 0..rows as u32 {
         let south = low.y + f64::from(row) * spacing;
-        let row_edges = Beside::of(&edges, (south, south + spacing));
+        row_edges.set(&edges, (south, south + spacing));
         for column in 0..columns as u32 {
             let jitter = Vector2::new(rng.unit(), rng.unit());
             let position = low + (Vector2::new(f64::from(column), f64::from(row)) + jitter) * spacing;
@@ -98,7 +98,9 @@ fn edges(outline: &[Point2]) -> SmallVec<[Edge; 8]> {
     outline.iter().zip(next).map(|(a, b)| ([*a, *b], b - a, (b - a).norm_squared())).collect()
 }
 
-/// The edges beside a row of the lattice: no other is passed at its heights, or near to it.
+/// The edges beside a row of the lattice: no other is passed at its heights, or near to it. They keep their place from one row
+/// to the next.
+#[derive(Default)]
 struct Beside {
     edges: SmallVec<[Edge; 8]>,
     /// From where to where they reach.
@@ -106,16 +108,16 @@ struct Beside {
 }
 
 impl Beside {
-    /// Those of an outline between two heights.
-    fn of(edges: &[Edge], (south, north): (f64, f64)) -> Self {
+    /// Takes those of an outline between two heights.
+    fn set(&mut self, edges: &[Edge], (south, north): (f64, f64)) {
         let is_beside =
             |([a, b], ..): &Edge| most(a.y, b.y) >= south - ROW_SLACK && least(a.y, b.y) <= north + ROW_SLACK;
-        let edges: SmallVec<[Edge; 8]> = edges.iter().filter(|edge| is_beside(edge)).copied().collect();
-        let ends = edges.iter().flat_map(|(ends, ..)| ends);
-        let span = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
+        self.edges.clear();
+        self.edges.extend(edges.iter().filter(|edge| is_beside(edge)).copied());
+        let ends = self.edges.iter().flat_map(|(ends, ..)| ends);
+        self.span = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), end| {
             (least(low, end.x), most(high, end.x))
         });
-        Self { edges, span }
     }
 
     /// Whether a point of the row lies within the outline, clear of its edges.

@@ -54,8 +54,8 @@ pub fn grow(config: &RoadConfig, seed: Seed) -> StreetPlan {
     // A street needs about half the square of its length; growth leaves gaps, and wants room to choose.
     let needed = f64::from(config.count) * config.length * config.length;
     let radius = (needed / PI).sqrt() * 1.5 + 6.0 * config.length;
-    let mut field = Field::new(config, radius, seed);
-    let mut growth = Growth::new(config, &mut field, seed);
+    let (mut field, mut fitter) = (Field::new(config, radius, seed), Fitter::default());
+    let mut growth = Growth::new(config, (&mut field, &mut fitter), seed);
     growth.plant();
     for _ in 0..ROUNDS {
         growth.run();
@@ -82,7 +82,7 @@ struct Growth<'a> {
     measures: Measures,
     field: &'a mut Field,
     fabric: Fabric,
-    fitter: Fitter,
+    fitter: &'a mut Fitter,
     queue: Queue,
     revivals: u32,
     /// Segments that are streets still, and how many there are to be.
@@ -92,14 +92,14 @@ struct Growth<'a> {
 }
 
 impl<'a> Growth<'a> {
-    fn new(config: &'a RoadConfig, field: &'a mut Field, seed: Seed) -> Self {
+    fn new(config: &'a RoadConfig, (field, fitter): (&'a mut Field, &'a mut Fitter), seed: Seed) -> Self {
         let (count, reach) = (config.count as usize, field.radius());
         Self {
             config,
             measures: Measures::new(config),
             field,
             fabric: Fabric::around(Point2::origin(), reach, config.length, count),
-            fitter: Fitter::default(),
+            fitter,
             queue: Queue::new(1.0),
             revivals: attempts(config),
             standing: 0,

@@ -46,6 +46,8 @@ pub(crate) struct Within {
 pub(crate) struct Soil {
     field: Field,
     curves: Curves,
+    /// What streets are fitted with: its memory is kept from one wall to the next.
+    fitter: Fitter,
     /// How far a local street reaches to its left, m.
     reach: f64,
 }
@@ -54,14 +56,19 @@ impl Soil {
     /// That of a configuration and of a seed, by which the land is what it is.
     pub(crate) fn new(config: &RoadConfig, fields: Seed) -> Self {
         let reach = plan_of_sections(config).0.sections[0].left_of_reference();
-        Self { field: Field::endless(config, fields), curves: Curves::new(), reach }
+        Self {
+            field: Field::endless(config, fields),
+            curves: Curves::new(),
+            fitter: Fitter::default(),
+            reach,
+        }
     }
 }
 
 /// Grows streets within a wall, counter-clockwise; `own` seeds all choices.
 pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, soil: &mut Soil, own: Seed) -> Within {
-    let Soil { field, curves, reach } = soil;
-    let mut growth = Growth::within(wall, config, field, own);
+    let Soil { field, curves, fitter, reach } = soil;
+    let mut growth = Growth::within(wall, config, (field, fitter), own);
     growth.open_gates(wall);
     growth.run();
     if growth.standing < wall.len() / 4 {
@@ -80,10 +87,15 @@ pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, soil: &mut Soil, o
 }
 
 impl<'a> Growth<'a> {
-    fn within(wall: &[Gate], config: &'a RoadConfig, field: &'a mut Field, own: Seed) -> Self {
+    fn within(
+        wall: &[Gate],
+        config: &'a RoadConfig,
+        (field, fitter): (&'a mut Field, &'a mut Fitter),
+        own: Seed,
+    ) -> Self {
         let (low, high) = bounds(wall.iter().map(|gate| &gate.at)).unwrap_or_default();
         let reach = (high - low).norm() * 0.5 + 2.0 * config.length;
-        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 4 * wall.len());
+        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 6 * wall.len());
         // Two streets are the wall's own; the third leads in.
         let corners = wall.iter().map(|gate| (gate.at, if gate.is_open { 3 } else { 2 }));
         fabric.wall_in(corners, RoadClass::Arterial);
@@ -92,7 +104,7 @@ impl<'a> Growth<'a> {
             measures: Measures::new(config),
             field,
             fabric,
-            fitter: Fitter::default(),
+            fitter,
             // What is near is all there is: costs are told apart finely.
             queue: Queue::new(32.0),
             revivals: 0,

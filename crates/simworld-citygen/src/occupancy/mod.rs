@@ -115,7 +115,7 @@ impl Occupancy {
                 are_near(taken, bounds) && overlap(taken, outline.corners())
             }
         };
-        !self.slots.any_near(cells, self.outlines.numbers(), collides)
+        !self.slots.any_near(cells, || self.outlines.numbers(), collides)
     }
 
     /// Whether the footprint of an upright box shares no interior point with what is taken.

@@ -77,10 +77,12 @@ struct Block {
 }
 
 impl Block {
-    /// A block without outlines.
-    const fn before(next: u32) -> Self {
+    /// A block with its first outline.
+    fn before(next: u32, item: u32, window: Window) -> Self {
         let (low, high) = ([NOWHERE as Lanes * EACH; 2], [BEFORE as Lanes * EACH; 2]);
-        Self { low, high, next, items: [NONE; ROOM] }
+        let mut block = Self { low, high, next, items: [NONE; ROOM] };
+        block.put_at(0, item, window);
+        block
     }
 
     fn is_full(&self) -> bool {
@@ -90,7 +92,12 @@ impl Block {
     fn put(&mut self, item: u32, window: Window) {
         // The first that is nowhere, without a branch: how many there are, nothing foretells.
         let nowhere = !not_zero(!self.low[0]) & TOPS;
-        let place = (nowhere.trailing_zeros() as usize / 8).min(ROOM - 1);
+        self.put_at((nowhere.trailing_zeros() as usize / 8).min(ROOM - 1), item, window);
+    }
+
+    /// Puts an outline where there is none.
+    #[inline]
+    fn put_at(&mut self, place: usize, item: u32, window: Window) {
         self.items[place] = item;
         // What is nowhere begins at the highest number and ends at zero: only what differs from that is set.
         for axis in 0..2 {
@@ -130,7 +137,8 @@ impl Slots {
     /// Empty, for about so many outlines.
     pub(super) fn with_capacity(outlines: usize) -> Self {
         let bits = bits_for(outlines);
-        let (heads, blocks) = (vec![NONE; 1 << (2 * bits)], Vec::with_capacity(outlines / 2));
+        // Half a block for each outline is too few for many tiles.
+        let (heads, blocks) = (vec![NONE; 1 << (2 * bits)], Vec::with_capacity(outlines / 4 * 3));
         Self { heads, blocks, large: Vec::new(), used: 0, bits }
     }
 
@@ -154,28 +162,30 @@ impl Slots {
         let Self { heads, blocks, used, .. } = self;
         cells.any(self.bits, |slot, window| {
             let head = &mut heads[slot];
-            *used += usize::from(*head == NONE);
-            if blocks.get(*head as usize).is_none_or(Block::is_full) {
-                blocks.push(Block::before(*head));
-                *head = blocks.len() as u32 - 1;
+            match blocks.get_mut(*head as usize) {
+                Some(block) if !block.is_full() => block.put(item, window),
+                _ => {
+                    *used += usize::from(*head == NONE);
+                    blocks.push(Block::before(*head, item, window));
+                    *head = blocks.len() as u32 - 1;
+                }
             }
-            blocks[*head as usize].put(item, window);
             false
         });
     }
 
-    /// Whether a test holds of any outline that may touch a box in some cells, of all those given if they are too many.
+    /// Whether a test holds of any outline that may touch a box in some cells, of all there are if they are too many.
     #[inline]
-    pub(super) fn any_near(
+    pub(super) fn any_near<A: Iterator<Item = u32>>(
         &self,
         cells: Option<&Cells>,
-        mut all: impl Iterator<Item = u32>,
+        all: impl FnOnce() -> A,
         test: impl Fn(u32) -> bool,
     ) -> bool {
         if self.large.iter().any(|item| test(*item)) {
             return true;
         }
-        let Some(cells) = cells else { return all.any(test) };
+        let Some(cells) = cells else { return all().any(test) };
         cells.any(self.bits, |slot, window| {
             let mut next = self.heads[slot];
             while let Some(block) = self.blocks.get(next as usize) {
@@ -206,7 +216,8 @@ fn bits_for(outlines: usize) -> u32 {
 /// A place along one axis: the cell, and the part of it.
 #[derive(Clone, Copy)]
 struct Place {
-    cell: i64,
+    /// Counted from far away: nothing is negative.
+    cell: u64,
     part: u8,
 }
 
@@ -217,10 +228,10 @@ impl Place {
         let parts = least(most(x * PARTS_PER_METRE, -FARTHEST), FARTHEST);
         let towards_zero = parts as i64;
         let floor = towards_zero - i64::from(towards_zero as f64 > parts);
-        // Counted from far away, nothing is negative: that is divided sooner.
+        // What is not negative is divided sooner.
         let counted = (floor + MIDDLE * PARTS) as u64;
         let (cell, part) = (counted / PARTS as u64, counted % PARTS as u64);
-        Self { cell: cell as i64 - MIDDLE, part: part as u8 + 1 }
+        Self { cell, part: part as u8 + 1 }
     }
 }
 
@@ -245,15 +256,16 @@ impl Cells {
     /// Whether something holds of the slot of any cell, in a grid of that size, and of what of the rectangle lies in it.
     #[inline]
     fn any(&self, bits: u32, mut holds: impl FnMut(usize, Window) -> bool) -> bool {
-        let mask = (1_i64 << bits) - 1;
-        let clipped = |(low, high): (Place, Place), cell: i64| {
+        let mask = (1_u64 << bits) - 1;
+        let clipped = |(low, high): (Place, Place), cell: u64| {
             let low = if cell == low.cell { low.part } else { BEFORE };
             (low, if cell == high.cell { high.part } else { BEYOND })
         };
-        for row in self.rows.0.cell..=self.rows.1.cell {
+        // Up to the one beyond the last: a range that holds its end is walked through more slowly.
+        for row in self.rows.0.cell..self.rows.1.cell + 1 {
             let (low_y, high_y) = clipped(self.rows, row);
             let first = (row & mask) << bits;
-            for column in self.columns.0.cell..=self.columns.1.cell {
+            for column in self.columns.0.cell..self.columns.1.cell + 1 {
                 let (low_x, high_x) = clipped(self.columns, column);
                 let window = Window { low: [low_x, low_y], high: [high_x, high_y] };
                 if holds((first | (column & mask)) as usize, window) {

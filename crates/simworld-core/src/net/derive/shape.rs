@@ -28,14 +28,21 @@ impl Hull {
     }
 }
 
+/// The straight way between the ends of a path, along and across which it is seen.
+#[derive(Clone, Copy)]
+pub(super) struct Outline {
+    start: Point2,
+    end: Point2,
+    /// The straight way from the beginning to the end, and the same turned to the left.
+    chord: Vector2,
+    left: Vector2,
+}
+
 /// A path seen along and across the straight way between its ends, and from the middle about which it bends.
 #[derive(Clone)]
 pub(super) struct Shape {
-    start: Point2,
-    end: Point2,
-    /// The straight way from the beginning to the end, the same turned to the left, and its length, m.
-    chord: Vector2,
-    left: Vector2,
+    outline: Outline,
+    /// Length of the straight way, m.
     length: f64,
     /// Where the beginning lies along and across the chord, seen from the origin, times the length of that.
     first: [f64; 2],
@@ -49,83 +56,33 @@ pub(super) struct Shape {
     sag: f64,
 }
 
-/// A shape of which the ends alone are known.
-pub(super) struct Outline(Shape);
-
 impl Outline {
     /// That of a path.
     pub(super) fn of(path: &[Point2]) -> Self {
         let start = path.first().copied().unwrap_or_else(Point2::origin);
         let end = path.last().copied().unwrap_or(start);
         let chord = end - start;
-        let mut shape = Shape {
-            start,
-            end,
-            chord,
-            left: Vector2::new(-chord.y, chord.x),
-            length: chord.norm(),
-            first: [0.0; 2],
-            beside: Extent::NONE,
-            hull: Hull::everywhere(start),
-            bend: OnceCell::new(),
-            sag: 0.0,
-        };
-        shape.first = shape.turned(&start);
-        Self(shape)
+        Self { start, end, chord, left: Vector2::new(-chord.y, chord.x) }
     }
 
     /// Where a point lies along and across the chord, seen from the origin.
     pub(super) fn turned(&self, point: &Point2) -> [f64; 2] {
-        self.0.turned(point)
-    }
-
-    /// The shape, by what all points of its path take as they are turned, and by the square of the length of its longest piece, m².
-    pub(super) fn filled(self, turned: &Extent, longest: f64) -> Shape {
-        let Self(mut shape) = self;
-        shape.beside = turned.moved(shape.first.map(|first| -first));
-        shape.sag = longest * 0.25;
-        if shape.length > SHORTEST {
-            shape.hull = shape.hull_of(&shape.beside);
-        }
-        shape
-    }
-}
-
-impl Shape {
-    /// The middle of the circle through both ends and a point that lies so far from the first; `None` where the three are as good as
-    /// on one line.
-    fn center(&self, middle: Vector2) -> Option<Point2> {
-        let twice = 2.0 * self.chord.perp(&middle);
-        let (far, near) = (self.chord.norm_squared(), middle.norm_squared());
-        let to_center =
-            Vector2::new(middle.y * far - self.chord.y * near, self.chord.x * near - middle.x * far) / twice;
-        (to_center.norm_squared() < FARTHEST * FARTHEST).then(|| self.start + to_center)
-    }
-
-    /// Where a point lies along and across the chord, seen from the origin.
-    fn turned(&self, point: &Point2) -> [f64; 2] {
         let (chord, left) = (&self.chord, &self.left);
         [point.x * chord.x + point.y * chord.y, point.x * left.x + point.y * left.y]
     }
 
-    /// The same from the beginning. Ten thousand kilometres from the origin some 10 nm of it are rounded.
-    fn locate(&self, point: &Point2) -> [f64; 2] {
-        let [along, across] = self.turned(point);
-        [along - self.first[0], across - self.first[1]]
+    /// The shape, by what all points of its path take as they are turned, and by the square of the length of its longest piece, m².
+    pub(super) fn filled(&self, turned: &Extent, longest: f64) -> Shape {
+        let (first, length) = (self.turned(&self.start), self.chord.norm());
+        let beside = turned.moved(first.map(|first| -first));
+        let hull =
+            if length > SHORTEST { self.hull_of(&beside, length) } else { Hull::everywhere(self.start) };
+        Shape { outline: *self, length, first, beside, hull, bend: OnceCell::new(), sag: longest * 0.25 }
     }
 
-    fn seen(&self, path: &[Point2]) -> Extent {
-        let mut extent = Extent::NONE;
-        for point in path {
-            extent.add(self.turned(point));
-        }
-        // What is least stays least: this is subtracted once for all.
-        extent.moved(self.first.map(|first| -first))
-    }
-
-    /// What lies so far along and across the chord.
-    fn hull_of(&self, extent: &Extent) -> Hull {
-        let inverse = 0.5 / (self.length * self.length);
+    /// What lies so far along and across a chord of a length.
+    fn hull_of(&self, extent: &Extent, length: f64) -> Hull {
+        let inverse = 0.5 / (length * length);
         let middle = [0, 1].map(|axis| (extent.low[axis] + extent.high[axis]) * inverse);
         let half = [0, 1].map(|axis| (extent.high[axis] - extent.low[axis]) * inverse);
         Hull {
@@ -134,12 +91,41 @@ impl Shape {
             across: self.left * half[1],
         }
     }
+}
+
+impl Shape {
+    /// The middle of the circle through both ends and a point that lies so far from the first; `None` where the three are as good as
+    /// on one line.
+    fn center(&self, middle: Vector2) -> Option<Point2> {
+        let Outline { start, chord, .. } = self.outline;
+        let twice = 2.0 * chord.perp(&middle);
+        let (far, near) = (chord.norm_squared(), middle.norm_squared());
+        let to_center =
+            Vector2::new(middle.y * far - chord.y * near, chord.x * near - middle.x * far) / twice;
+        (to_center.norm_squared() < FARTHEST * FARTHEST).then(|| start + to_center)
+    }
+
+    /// Where a point lies along and across the chord, seen from the beginning. Ten thousand kilometres from the origin some 10 nm of
+    /// it are rounded.
+    fn locate(&self, point: &Point2) -> [f64; 2] {
+        let [along, across] = self.outline.turned(point);
+        [along - self.first[0], across - self.first[1]]
+    }
+
+    fn seen(&self, path: &[Point2]) -> Extent {
+        let mut extent = Extent::NONE;
+        for point in path {
+            extent.add(self.outline.turned(point));
+        }
+        // What is least stays least: this is subtracted once for all.
+        extent.moved(self.first.map(|first| -first))
+    }
 
     fn seen_hull(&self, hull: &Hull) -> Extent {
-        let middle = self.locate(&hull.middle);
+        let (middle, chord) = (self.locate(&hull.middle), self.outline.chord);
         let half = [
-            self.chord.dot(&hull.along).abs() + self.chord.dot(&hull.across).abs(),
-            self.chord.perp(&hull.along).abs() + self.chord.perp(&hull.across).abs(),
+            chord.dot(&hull.along).abs() + chord.dot(&hull.across).abs(),
+            chord.perp(&hull.along).abs() + chord.perp(&hull.across).abs(),
         ];
         Extent {
             low: [middle[0] - half[0], middle[1] - half[1]],
@@ -165,7 +151,7 @@ impl Shape {
         // Who comes from one side of all of this one and leaves on the other, and is between its ends all the time, crosses it.
         let slack = SLACK * self.length;
         let is_between = seen.low[0] > slack && seen.high[0] < self.length * self.length - slack;
-        let (first, last) = (self.locate(&other.start)[1], self.locate(&other.end)[1]);
+        let (first, last) = (self.locate(&other.outline.start)[1], self.locate(&other.outline.end)[1]);
         let (low, high) = (self.beside.low[1] - slack, self.beside.high[1] + slack);
         (is_between && lesser(first, last) < low && greater(first, last) > high).then_some(true)
     }
@@ -188,7 +174,7 @@ impl Shape {
     /// The middle about which its path bends, and what that takes of the distance from there.
     fn bend(&self, path: &[Point2]) -> Option<(Point2, Radii)> {
         *self.bend.get_or_init(|| {
-            let center = self.center(path.get(path.len() / 2)? - self.start)?;
+            let center = self.center(path.get(path.len() / 2)? - self.outline.start)?;
             Some((center, Radii::of(path, center, self.sag)))
         })
     }
