@@ -44,14 +44,14 @@ impl Change<'_> {
         // What stands along sidewalks is set in their order, where there is room.
         loop {
             let spread = [0, 1].map(|time| self.faces[time].spread_walks(&sides[time], true));
-            let grown = self.common(spread);
+            let grown = self.common(&spread);
             if grown == sides {
                 break;
             }
             sides = grown;
         }
         let sides =
-            self.common([0, 1].map(|time| &sides[time] | &parks_beside(&self.faces[time], &sides[time])));
+            self.common(&[0, 1].map(|time| &sides[time] | &parks_beside(&self.faces[time], &sides[time])));
         let mut sides = sides.into_iter();
         self.faces.map(|outskirts| Scope::of(outskirts, sides.next().unwrap_or_default()))
     }
@@ -69,7 +69,7 @@ impl Change<'_> {
         });
         let courses: Vec<Bounds> = courses.collect();
         let reordered = self.reordered(&forms);
-        self.common([0, 1].map(|time| {
+        self.common(&[0, 1].map(|time| {
             let faces = &self.faces[time];
             let is_reached = |(_, strip): &(usize, Strip)| {
                 self.courses.iter().any(|course| meet(inflated(*course, REACH), strip.lots))
@@ -124,7 +124,7 @@ impl Change<'_> {
     }
 
     /// What is touched at one time is at the other as well, as long as its road is there.
-    fn common(&self, sides: [BTreeSet<usize>; 2]) -> [BTreeSet<usize>; 2] {
+    fn common(&self, sides: &[BTreeSet<usize>; 2]) -> [BTreeSet<usize>; 2] {
         let moved = &self.altered.moved;
         [0, 1].map(|time| {
             let (here, there) = (&self.altered.roads[time], &self.altered.roads[1 - time]);

@@ -79,7 +79,7 @@ struct Block {
 impl Block {
     /// A block with its first outline.
     fn before(next: u32, item: u32, window: Window) -> Self {
-        let (low, high) = ([NOWHERE as Lanes * EACH; 2], [BEFORE as Lanes * EACH; 2]);
+        let (low, high) = ([Lanes::from(NOWHERE) * EACH; 2], [Lanes::from(BEFORE) * EACH; 2]);
         let mut block = Self { low, high, next, items: [NONE; ROOM] };
         block.put_at(0, item, window);
         block
@@ -262,10 +262,11 @@ impl Cells {
             (low, if cell == high.cell { high.part } else { BEYOND })
         };
         // Up to the one beyond the last: a range that holds its end is walked through more slowly.
-        for row in self.rows.0.cell..self.rows.1.cell + 1 {
+        let beyond = [self.rows.1.cell + 1, self.columns.1.cell + 1];
+        for row in self.rows.0.cell..beyond[0] {
             let (low_y, high_y) = clipped(self.rows, row);
             let first = (row & mask) << bits;
-            for column in self.columns.0.cell..self.columns.1.cell + 1 {
+            for column in self.columns.0.cell..beyond[1] {
                 let (low_x, high_x) = clipped(self.columns, column);
                 let window = Window { low: [low_x, low_y], high: [high_x, high_y] };
                 if holds((first | (column & mask)) as usize, window) {
