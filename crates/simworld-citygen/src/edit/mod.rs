@@ -1,7 +1,8 @@
 //! Edits of a city: streets, buildings and elements come, move and go, and only what they touch is made anew.
 //!
 //! An edit of a street cuts and joins the streets that it meets, derives the roads round it anew, and divides and builds on
-//! the blocks on both its sides by the rules of the whole city. Every block, lot, sidewalk and green draws from a stream of
+//! the blocks on both its sides by the rules of the whole city, of the open land round a town as much as the change reaches.
+//! Every block, lot, sidewalk and green draws from a stream of
 //! its own place, so what comes out is what the whole city would be on the new streets; buildings that come out as they were
 //! keep their names and uses. What a map or a hand put there ([`Building::given`], [`Element::along`]) stays as long as it
 //! has room.
