@@ -109,6 +109,10 @@ index_type!(
     CrossingId
 );
 index_type!(
+    /// A plaza: open ground on which people walk wherever they like.
+    PlazaId
+);
+index_type!(
     /// A waypoint of a [`WaypointGraph`](crate::net::WaypointGraph).
     WaypointId
 );

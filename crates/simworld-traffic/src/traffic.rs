@@ -29,7 +29,7 @@ use simworld_core::seed::{Seed, Stream};
 
 use crate::crowd::Person;
 use crate::demand::{DemandManager, Flow, Kerbs, OF_FLOW, Trip, TripEnd, VehicleChoice};
-use crate::pedestrian::{self, Pedestrian, PedestrianManager};
+use crate::pedestrian::{self, Pedestrian, PedestrianManager, Plazas};
 use crate::signal::{ByHand, Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
 use crate::{DrivingConditions, Route, Stop, TrafficConfig, TrafficError};
@@ -63,6 +63,7 @@ pub struct Traffic {
     streams: Stream,
     tracks: Tracks,
     ways: WaypointGraph,
+    plazas: Plazas,
     finder: Finder,
     signals: IntersectionManager,
     /// The plans as they were given, before anybody timed them anew by an order.
@@ -126,6 +127,7 @@ impl Traffic {
         let streams = seed.stream("traffic");
         let (crossings, groups) = (network.crossings.len(), network.signal_groups());
         let ways = WaypointGraph::walkable(&network, &WaypointConfig { step: 25.0, offset: 0.0 })?;
+        let plazas = Plazas::new(&network, &ways);
         let mut pedestrians = PedestrianManager::new(&network);
         let tracks = Tracks::new(network, config);
         let signals = IntersectionManager::new(&tracks.network);
@@ -148,6 +150,7 @@ impl Traffic {
             signals,
             tracks,
             ways,
+            plazas,
             state: State { vehicles, pedestrians, conditions: config.conditions, ..State::default() },
             placed,
             obstacles: Vec::new(),
@@ -363,6 +366,7 @@ impl Traffic {
         let sight = pedestrian::Sight {
             network: &tracks.network,
             ways: &self.ways,
+            plazas: &self.plazas,
             aspects,
             claims: &|crossing| vehicles.claims(crossing),
             gap: &|crossing| self.gaps.time(tracks, vehicles, aspects, crossing),

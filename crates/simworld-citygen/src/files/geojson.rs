@@ -111,9 +111,14 @@ impl<W: Write> Features<'_, W> {
             self.feature("crossing", index, &Geometry::Line(&line), properties)?;
         }
         for (index, way) in network.footpaths.iter().enumerate() {
-            let properties =
-                json!({ "width_m": millimetres(way.width), "level": way.level, "covered": way.covered });
+            let properties = json!({ "width_m": millimetres(way.width), "level": way.level, "covered": way.covered, "plaza": way.plaza });
             self.feature("footpath", index, &Geometry::Line(&way.path), properties)?;
+        }
+        for (index, plaza) in network.plazas.iter().enumerate() {
+            let turned = |hole: &Vec<Point2>| hole.iter().rev().copied().collect();
+            let holes: Vec<Vec<Point2>> = plaza.holes.iter().map(turned).collect();
+            let properties = json!({ "area_m2": millimetres(plaza.area()) });
+            self.feature("plaza", index, &Geometry::Area(&plaza.edge, &holes), properties)?;
         }
         Ok(())
     }

@@ -267,6 +267,7 @@ impl Trails {
             joins: [true; 2],
             level: 0,
             covered: false,
+            plaza: None,
         };
         self.lines().into_iter().map(way).collect()
     }

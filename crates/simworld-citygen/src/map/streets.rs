@@ -19,6 +19,7 @@ const CROSSINGS_FROM: f64 = 0.28;
 
 pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Result {
     tunnels::draw(f, page, city)?;
+    plazas(f, page, city)?;
     sidewalks(f, page, city)?;
     writeln!(f, r#"<g id="streets" fill="none" stroke-linejoin="round" stroke-linecap="round">"#)?;
     let layers: Vec<Layer> = ROADS.iter().map(|style| Layer::of(style, page, city)).collect();
@@ -111,6 +112,20 @@ fn junctions(style: &RoadStyle, page: &Page, city: &City) -> String {
     pen.into_data()
 }
 
+/// Open ground for walkers.
+fn plazas(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Result {
+    if city.network.plazas.is_empty() {
+        return Ok(());
+    }
+    writeln!(f, r#"<g id="plazas" fill="{SIDEWALK}" fill-rule="evenodd" stroke="none">"#)?;
+    for plaza in &city.network.plazas {
+        let mut pen = Pen::at(page.middle);
+        plaza.rings().for_each(|ring| pen.polygon(ring));
+        writeln!(f, r#"<path d="{}"/>"#, pen.into_data())?;
+    }
+    writeln!(f, "</g>")
+}
+
 fn sidewalks(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Result {
     let mut pens: BTreeMap<u32, Pen> = BTreeMap::new();
     let mut draw = |path: &[Point2], width: f64| {
@@ -123,7 +138,7 @@ fn sidewalks(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Resul
     for sidewalk in city.network.sidewalks.iter().filter(is_on_ground) {
         draw(&sidewalk.path, sidewalk.width);
     }
-    for way in city.network.footpaths.iter().filter(|way| way.level == 0) {
+    for way in city.network.footpaths.iter().filter(|way| way.level == 0 && way.plaza.is_none()) {
         draw(&way.path, way.width);
     }
     let usual = city.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);

@@ -118,6 +118,22 @@ impl Occupancy {
         !self.slots.any_near(cells, || self.outlines.numbers(), collides)
     }
 
+    /// The outlines that may touch a box, each once, in the order in which they were taken but for rectangles, which come first.
+    #[cfg(feature = "osm")]
+    pub(crate) fn near(&self, low: Point2, high: Point2) -> Vec<&[Point2]> {
+        let found = std::cell::RefCell::new(Vec::new());
+        let note = |number| {
+            found.borrow_mut().push(number);
+            false
+        };
+        self.slots.any_near(Cells::of((low, high)).as_ref(), || self.outlines.numbers(), note);
+        let mut numbers = found.into_inner();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let outlines = numbers.into_iter().map(|number| self.outlines.get(number).corners());
+        outlines.filter(|outline| are_near(outline, (low, high))).collect()
+    }
+
     /// Whether the footprint of an upright box shares no interior point with what is taken.
     pub fn is_free_box(&self, obb: &Obb) -> bool {
         self.is_free(&obb.footprint())

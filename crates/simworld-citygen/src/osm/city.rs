@@ -89,10 +89,11 @@ impl City {
         let land = if is_filled { of_network() } else { Land::default() };
         let (mut buildings, carriageways) =
             mapped(place, outlines, &network, &off_ground, &mut taken, &mut warnings);
-        network.footpaths = footway::paths(place, &network, &buildings, &mut warnings);
+        let footways = footway::lay(place, &network, &buildings, &mut warnings);
         // All that the map has stands before anything is made up.
         let mut elements = things::set(place, &network, &carriageways, &mut taken, &mut warnings);
-        footway::take(&network.footpaths, &mut taken);
+        footways.take(&mut taken);
+        (network.footpaths, network.plazas) = (footways.paths, footways.plazas);
         if options.buildings == Fill::WhereMissing {
             let open = without_lots_near(&land, &buildings);
             let built = crate::building::build(&network, &open, &config.buildings, seed, &mut taken);

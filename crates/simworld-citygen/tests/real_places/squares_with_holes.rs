@@ -5,8 +5,10 @@ use crate::osm_common::Sketch;
 use crate::ways_for_walkers::{FOOT, assert_beside_roads, assert_reached, block, built, route, samples};
 use simworld_citygen::City;
 use simworld_citygen::CityConfig;
+use simworld_citygen::occupancy::Occupancy;
 use simworld_citygen::osm::{OsmId, PlaceOptions, Warning};
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::{Footpath, Plaza, polyline};
 use simworld_core::seed::Seed;
 
 const SQUARE: [(&str, &str); 3] = [("type", "multipolygon"), ("highway", "pedestrian"), ("area", "yes")];
@@ -100,4 +102,54 @@ fn an_edge_of_several_ways_and_a_way_to_its_hole() {
     assert!((112.0..140.0).contains(&across(&city)));
     let to_the_hole = route(&city, Point2::new(0.0, -55.0), Point2::new(12.0, 8.0) + Vector2::new(0.1, 0.1));
     assert!(to_the_hole < 110.0, "{to_the_hole} m");
+}
+
+/// The only plaza of a city.
+fn plaza(city: &City) -> &Plaza {
+    let [plaza] = city.network.plazas.as_slice() else { panic!("{:?}", city.network.plazas) };
+    plaza
+}
+
+#[test]
+fn the_open_part_of_a_square_is_a_plaza() {
+    let area = [("highway", "pedestrian"), ("area", "yes")];
+    // 60 m by 50 m, with 24 m by 16 m in its middle, or not.
+    for (hole, expected) in [
+        (&[][..], 3000.0),
+        (&[("building", "yes")], 3000.0 - 384.0),
+        (&[("amenity", "fountain")], 3000.0 - 384.0),
+    ] {
+        let city = built(&ways(&area, hole));
+        let plaza = plaza(&city);
+        assert!((plaza.area() - expected).abs() < 1.0, "{hole:?}: {} m²", plaza.area());
+        assert_eq!(plaza.contains(Point2::new(0.0, 0.0)), hole.is_empty());
+        assert!(plaza.contains(Point2::new(-29.0, -24.0)) && !plaza.contains(Point2::new(-31.0, 0.0)));
+        // Ways across it know it, those to it do not.
+        let middle = |way: &Footpath| polyline::at(&way.path, polyline::length(&way.path) * 0.5).0;
+        let (across, others): (Vec<&Footpath>, Vec<_>) =
+            city.network.footpaths.iter().partition(|way| way.plaza.is_some());
+        assert!(!across.is_empty() && across.iter().all(|way| plaza.contains(middle(way))));
+        assert!(others.len() >= 2 && !others.iter().any(|way| plaza.contains(middle(way))));
+    }
+}
+
+#[test]
+fn what_is_driven_on_is_no_part_of_a_plaza() {
+    // Far over the streets to the south and to the north, as squares are often drawn.
+    let mut sketch = block();
+    for (id, at) in (30..).zip([(-30.0, -80.0), (30.0, -80.0), (30.0, 80.0), (-30.0, 80.0)]) {
+        sketch = sketch.node(id, at, &[]);
+    }
+    let area = [("highway", "pedestrian"), ("area", "yes")];
+    let city = built(&sketch.way(&[30, 31, 32, 33, 30], &area).way(&[2, 31], &FOOT).way(&[5, 33], &FOOT));
+    let taken = Occupancy::of_roads(&city.network);
+    let sides =
+        city.network.plazas.iter().flat_map(Plaza::sides).filter(|[from, to]| (to - from).norm() > 0.5);
+    for [from, to] in sides {
+        let left = Vector2::new(from.y - to.y, to.x - from.x).normalize();
+        let inner = nalgebra::center(&from, &to) + left * 0.05;
+        let near = [(-0.01, -0.01), (0.01, -0.01), (0.01, 0.01), (-0.01, 0.01)];
+        assert!(taken.is_free(&near.map(|(x, y)| inner + Vector2::new(x, y))), "{inner} lies on a street");
+    }
+    assert!(city.network.plazas.iter().any(|plaza| plaza.area() > 2000.0), "{:?}", city.network.plazas);
 }

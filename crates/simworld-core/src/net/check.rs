@@ -182,8 +182,11 @@ impl RoadNetwork {
         all("footpath", &self.footpaths, |_, way| match () {
             () if !is_line(&way.path) => SHAPELESS,
             () if !is_within(way.width, WIDEST) => SIZELESS,
+            () if way.plaza.is_some_and(|plaza| plaza.index() >= self.plazas.len()) => LOST,
             () => None,
         })?;
+        let is_ring = |ring: &[Point2]| ring.len() >= 3 && ring.iter().all(is_near);
+        all("plaza", &self.plazas, |_, plaza| if plaza.rings().all(is_ring) { None } else { SHAPELESS })?;
         let groups = self.signal_groups();
         all("crossing", &self.crossings, |_, crossing| {
             let signal = crossing.signal.is_none_or(|group| group.index() < groups);

@@ -11,6 +11,7 @@ mod near;
 mod network;
 mod part;
 mod plan;
+mod plaza;
 pub mod polyline;
 mod repair;
 mod section;
@@ -34,6 +35,7 @@ pub use network::{
 };
 pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};
+pub use plaza::Plaza;
 pub use repair::{NetworkPatch, PatchError, PlanChange};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};

@@ -4,9 +4,9 @@
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::{DrivingSide, LaneDirection, LaneKind, SignalGroup, SignalPlan, polyline};
+use super::{DrivingSide, LaneDirection, LaneKind, Plaza, SignalGroup, SignalPlan, polyline};
 use crate::geometry::{self, Point2};
-use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
+use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, PlazaId, RoadId, SidewalkId};
 
 /// A list of numbers of which there are few in most places: up to four stand in place, with no memory of their own to go and
 /// look for; more of them are a vector. It is as large as a vector, and read, collected and saved like one.
@@ -312,6 +312,9 @@ pub struct Footpath {
     /// Whether something is built over it: a passage through a building, an arcade.
     #[serde(default)]
     pub covered: bool,
+    /// The plaza that it crosses, if it does: those on it may leave the line, but not the plaza.
+    #[serde(default)]
+    pub plaza: Option<PlazaId>,
 }
 
 /// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.
@@ -335,6 +338,8 @@ pub struct RoadNetwork {
     pub names: Vec<String>,
     /// Ways for walkers alone.
     pub footpaths: Vec<Footpath>,
+    /// Indexed by [`PlazaId`].
+    pub plazas: Vec<Plaza>,
     /// The side on which traffic keeps.
     pub driving_side: DrivingSide,
 }

@@ -13,6 +13,7 @@ pub fn numbered_in_order(network: &RoadNetwork) -> RoadNetwork {
         names: network.names.clone(),
         driving_side: network.driving_side,
         footpaths: network.footpaths.clone(),
+        plazas: network.plazas.clone(),
         ..RoadNetwork::default()
     };
     let lanes = order_lanes(network, &mut ordered);

@@ -19,6 +19,7 @@ fn graph(ways: &[Way<'_>]) -> WaypointGraph {
             joins: *joins,
             level: 0,
             covered: false,
+            plaza: None,
         })
         .collect();
     network.check().unwrap();

@@ -5,7 +5,7 @@ use simworld_core::net::{Aspect, RoadNetwork, WaypointGraph};
 use simworld_core::seed::Stream;
 
 use super::journey::{Journeys, Next};
-use super::{Habit, Pedestrian, Stage};
+use super::{Habit, Pedestrian, Plazas, Stage};
 use crate::TrafficConfig;
 
 /// Nobody crosses a road more slowly, m/s: signals leave time for 1.0.
@@ -15,6 +15,7 @@ pub(super) const CROSSING_SPEED: f64 = 1.25;
 pub(crate) struct Sight<'a> {
     pub(crate) network: &'a RoadNetwork,
     pub(crate) ways: &'a WaypointGraph,
+    pub(crate) plazas: &'a Plazas,
     pub(crate) aspects: &'a [Aspect],
     /// Vehicles about to pass each crossing.
     pub(crate) claims: &'a (dyn Fn(CrossingId) -> u32 + Sync),

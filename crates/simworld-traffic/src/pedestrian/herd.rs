@@ -5,7 +5,7 @@ use simworld_core::net::WaypointGraph;
 
 use super::decide::CROSSING_SPEED;
 use super::walkway::Walkway;
-use super::{Pedestrian, Range, Stage, party};
+use super::{Pedestrian, Plazas, Range, Stage, party};
 use crate::crowd::{Herd, Look, Person, Wall, Wish};
 
 /// Where those stand who have left, m: nobody is there.
@@ -19,6 +19,7 @@ pub(super) struct Streets<'a> {
     /// Bodies of others.
     pub(super) bodies: &'a [Person],
     pub(super) ways: &'a WaypointGraph,
+    pub(super) plazas: &'a Plazas,
     /// Whether those decide too who do so now and then.
     pub(super) turn: bool,
     /// Time until those decide again, s.
@@ -50,8 +51,8 @@ impl Pedestrian {
         (turn || self.range == Range::Near) && self.stage != Stage::Free
     }
 
-    fn wish(&self, walkers: &[Pedestrian], walkway: &Walkway, hold: Option<f64>) -> Wish {
-        let way = walkway.target - self.position;
+    fn wish(&self, walkers: &[Pedestrian], aim: Point2, hold: Option<f64>) -> Wish {
+        let way = aim - self.position;
         let distance = way.norm();
         let direction = if distance > 1e-9 { way / distance } else { self.direction() };
         let pace = if self.companions > 0 { party::pace(self, walkers, direction) } else { 1.0 };
@@ -88,11 +89,12 @@ impl Herd for Streets<'_> {
 
     fn look(&self, index: usize, walls: &mut Vec<Wall>) -> Option<Look> {
         let walker = self.walker(index).filter(|walker| walker.is_present() && walker.decides(self.turn))?;
-        let walkway = Walkway::of(walker, self.ways);
+        let walkway = Walkway::of(walker, self.ways, self.plazas);
         let is_near = walker.range == Range::Near;
-        let wish = walker.wish(self.walkers, &walkway, (!is_near).then_some(self.until_turn));
+        let aim = walkway.aim(walker.position, self.plazas);
+        let wish = walker.wish(self.walkers, aim, (!is_near).then_some(self.until_turn));
         if wish.speed > 0.0 {
-            walkway.edges(walker.position, walls);
+            walkway.edges(walker.position, self.plazas, walls);
         }
         Some(Look { person: walker.person(), wish, hold: if is_near { self.dt } else { self.until_turn } })
     }

@@ -152,7 +152,7 @@ impl PedestrianManager {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
             let Scratch { weights, events, nearer } = &mut *scratch;
             let mut decide = |walker: &mut Pedestrian, index: u32| {
-                if walker.is_present() && walker.decides(turn) && walker.is_due(sight.ways) {
+                if walker.is_present() && walker.decides(turn) && walker.is_due(sight) {
                     let by = Deciding { index, sight, config, streams, journeys };
                     walker.decide(&by, weights, events);
                 }
@@ -241,7 +241,8 @@ impl PedestrianManager {
         let some = if turn { &[][..] } else { subset };
         if turn || !some.is_empty() {
             let Surroundings { workers, config, bodies, .. } = around;
-            let herd = Streets { walkers, subset: some, bodies, ways: sight.ways, turn, until_turn, dt };
+            let Sight { ways, plazas, .. } = *sight;
+            let herd = Streets { walkers, subset: some, bodies, ways, plazas, turn, until_turn, dt };
             crowd.decide(*workers, (&config.walking, config.people.steering), &herd);
         }
         for (rank, index) in some.iter().enumerate() {
@@ -313,14 +314,14 @@ impl Pedestrian {
     }
 
     /// Whether it is at the end of its way, or waits there.
-    fn is_due(&mut self, ways: &WaypointGraph) -> bool {
+    fn is_due(&mut self, sight: &Sight<'_>) -> bool {
         if self.stage == Stage::Waiting {
             return true;
         }
         if self.left > 0.0 {
             return false;
         }
-        let walkway = Walkway::of(self, ways);
+        let walkway = Walkway::of(self, sight.ways, sight.plazas);
         self.left = walkway.left(self.position);
         walkway.is_walked(self.position)
     }

@@ -10,6 +10,7 @@ mod journey;
 mod manager;
 mod party;
 mod place;
+mod plaza;
 mod profile;
 mod takeover;
 mod walkway;
@@ -19,6 +20,7 @@ pub(crate) use decide::Sight;
 pub use journey::{AtDestination, Walk};
 pub(crate) use manager::{PedestrianManager, Surroundings, Time};
 pub(crate) use place::Entry;
+pub(crate) use plaza::Plazas;
 pub use profile::Sex;
 
 use serde::{Deserialize, Serialize};

@@ -13,6 +13,8 @@ use super::walkway::MARGIN;
 use super::{Habit, Pedestrian, PedestrianManager, Range, Stage};
 use crate::TrafficConfig;
 
+/// How far to the right of the middle people keep, m.
+pub(super) const KEEP_RIGHT: (f64, f64) = (0.1, 0.8);
 /// So many places are tried for each walker.
 const TRIES: u32 = 50;
 
@@ -30,7 +32,7 @@ struct Character {
 impl Character {
     fn draw(profiles: &Profiles, config: &TrafficConfig, rng: &mut StreamRng) -> Self {
         let profile = profiles.draw(rng);
-        let keep_right = rng.uniform(0.1, 0.8);
+        let keep_right = rng.uniform(KEEP_RIGHT.0, KEEP_RIGHT.1);
         let habit = if rng.chance(config.people.jaywalking) { Habit::Dares } else { Habit::Waits };
         Self { profile, keep_right, habit }
     }

@@ -8,7 +8,7 @@ use simworld_core::hash::StateHasher;
 use simworld_core::id::WaypointId;
 use simworld_core::net::{WaypointEdge, WaypointGraph};
 
-use super::{Habit, Pedestrian, PedestrianManager, Stage};
+use super::{Habit, Pedestrian, PedestrianManager, Plazas, Stage};
 use crate::takeover::{Control, ControlError, Stroll};
 
 /// Who is guided or moved by somebody else.
@@ -125,14 +125,14 @@ impl PedestrianManager {
     /// Puts a free walker back on the walkway under it, from which its journey, if it has one, goes on.
     pub(crate) fn put_back(
         &mut self,
-        ways: &WaypointGraph,
+        (ways, plazas): (&WaypointGraph, &Plazas),
         id: u32,
         path: impl Fn(WaypointId, WaypointId) -> Option<Vec<WaypointId>>,
     ) -> Result<(), ControlError> {
         let walker = *self.present(id)?;
         let at = walker.position;
         let refused = |reason| ControlError::NoPlace { what: "walker", id, at, reason };
-        let (from, to) = walkway_at(ways, &walker)
+        let (from, to) = walkway_at(ways, plazas, &walker)
             .ok_or(refused("no walkway passes under it: bring it to a sidewalk, off the road"))?;
         if let Some(journey) = self.journeys.0.get_mut(&id)
             && let Some(goal) = journey.path.last()
@@ -176,13 +176,17 @@ impl Pedestrian {
 
 /// The walkway under somebody that leads where they look: of those that begin or end near the nearest waypoint, the one whose
 /// middle is nearest.
-fn walkway_at(ways: &WaypointGraph, walker: &Pedestrian) -> Option<(WaypointId, WaypointId)> {
+fn walkway_at(
+    ways: &WaypointGraph,
+    plazas: &Plazas,
+    walker: &Pedestrian,
+) -> Option<(WaypointId, WaypointId)> {
     let at = walker.position;
     let nearest = ways.nearest(at)?;
     let starts = std::iter::once(nearest).chain(ways.edges(nearest).iter().map(|edge| edge.to));
     let mut best: Option<(f64, WaypointId, WaypointId)> = None;
     for (from, edge) in starts.flat_map(|from| ways.edges(from).iter().map(move |edge| (from, edge))) {
-        let Some(aside) = aside(ways, from, edge, walker) else { continue };
+        let Some(aside) = aside(ways, plazas, (from, edge), walker) else { continue };
         if best.is_none_or(|best| aside < best.0) {
             best = Some((aside, from, edge.to));
         }
@@ -191,13 +195,23 @@ fn walkway_at(ways: &WaypointGraph, walker: &Pedestrian) -> Option<(WaypointId, 
 }
 
 /// How far somebody is beside the middle of a walkway; none if they are not on it, or look the other way.
-fn aside(ways: &WaypointGraph, from: WaypointId, edge: &WaypointEdge, walker: &Pedestrian) -> Option<f64> {
+fn aside(
+    ways: &WaypointGraph,
+    plazas: &Plazas,
+    (from, edge): (WaypointId, &WaypointEdge),
+    walker: &Pedestrian,
+) -> Option<f64> {
     let (a, b) = (ways.waypoint(from).position, ways.waypoint(edge.to).position);
     let along = (b - a).try_normalize(1e-9)?;
     let offset = walker.position - a;
     let (station, aside) = (offset.dot(&along), offset.perp(&along).abs());
     let half = f64::from(edge.width) * 0.5;
-    let is_on =
-        edge.crossing.is_none() && (-half..=(b - a).norm() + half).contains(&station) && aside <= half;
+    let is_wide = || {
+        let plaza = plazas.between(ways, from, edge.to);
+        plaza.is_some_and(|plaza| plazas.contains(plaza, walker.position))
+    };
+    let is_on = edge.crossing.is_none()
+        && (-half..=(b - a).norm() + half).contains(&station)
+        && (aside <= half || is_wide());
     (is_on && walker.direction().dot(&along) >= 0.0).then_some(aside)
 }

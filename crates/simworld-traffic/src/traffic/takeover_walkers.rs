@@ -61,8 +61,9 @@ impl Traffic {
                 Ok(())
             }
             Some(Control::Free) => {
-                let ways = &self.ways;
-                self.state.pedestrians.put_back(ways, id, |from, to| super::walkers::path(ways, from, to))
+                let (ways, plazas) = (&self.ways, &self.plazas);
+                let path = |from, to| super::walkers::path(ways, from, to);
+                self.state.pedestrians.put_back((ways, plazas), id, path)
             }
         }
     }

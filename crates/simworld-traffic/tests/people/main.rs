@@ -5,5 +5,6 @@
 mod at_once;
 mod crowds_walk_as_measured;
 mod people_of_a_city;
+mod people_on_plazas;
 mod rimea;
 mod walkers_mind_the_signals;

@@ -72,6 +72,7 @@ fn grid_with_a_footpath() -> Arc<RoadNetwork> {
         joins,
         level: 0,
         covered: false,
+        plaza: None,
     };
     network.footpaths = vec![piece(7.1, 51.7, [true, false]), piece(51.7, 102.9, [false, true])];
     network.check().unwrap();

@@ -206,7 +206,7 @@ impl City {
         frames.list(Tag::Crossings, &network.crossings)?;
         frames.list(Tag::Signals, &network.signals)?;
         frames.list(Tag::Names, &network.names)?;
-        walks::write(&mut frames, &network.footpaths)?;
+        walks::write(&mut frames, network)?;
         frames.end()
     }
 
@@ -302,6 +302,7 @@ fn read_network(
     counts: &Counts,
     driving_side: DrivingSide,
 ) -> Result<RoadNetwork, SaveError> {
+    let (footpaths, plazas) = walks::read(sections, counts.footpaths)?;
     let network = RoadNetwork {
         driving_side,
         roads: sections.list(Tag::Roads, counts.roads)?,
@@ -312,7 +313,8 @@ fn read_network(
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
         names: sections.list(Tag::Names, counts.names)?,
-        footpaths: walks::read(sections, counts.footpaths)?,
+        footpaths,
+        plazas,
     };
     network.check()?;
     Ok(network)

@@ -1,11 +1,12 @@
-//! Ways for walkers: as they were saved before they had levels, and a section of their own for those that lie off the ground
-//! or are built over. Where there are none that section is left out, so that the bytes are those of before.
+//! Ways for walkers: as they were saved before they had levels, and sections of their own for those that lie off the ground
+//! or are built over, and for plazas. Where there are none those are left out, so that the bytes are those of before.
 
 use std::io::Write;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
-use simworld_core::net::Footpath;
+use simworld_core::id::PlazaId;
+use simworld_core::net::{Footpath, Plaza, RoadNetwork};
 
 use super::SaveError;
 use super::frame::{Sections, Tag, Writer};
@@ -35,7 +36,15 @@ struct OffGround {
     covered: bool,
 }
 
-pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, ways: &[Footpath]) -> Result<(), SaveError> {
+/// Open ground, and the indices of the ways across it.
+#[derive(Serialize, Deserialize)]
+struct Open<P> {
+    plaza: P,
+    ways: Vec<u32>,
+}
+
+pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, network: &RoadNetwork) -> Result<(), SaveError> {
+    let ways = &network.footpaths;
     let written: Vec<Written<'_>> =
         ways.iter().map(|way| Written { path: &way.path, width: way.width, joins: way.joins }).collect();
     frames.list(Tag::Footpaths, &written)?;
@@ -43,10 +52,21 @@ pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, ways: &[Footpath]) -> 
     let levels: Vec<OffGround> = off_ground
         .map(|(index, way)| OffGround { way: index as u32, level: way.level, covered: way.covered })
         .collect();
-    if levels.is_empty() { Ok(()) } else { frames.section(Tag::Levels, &levels) }
+    if !levels.is_empty() {
+        frames.section(Tag::Levels, &levels)?;
+    }
+    let mut open: Vec<Open<&Plaza>> =
+        network.plazas.iter().map(|plaza| Open { plaza, ways: Vec::new() }).collect();
+    for (way, path) in (0..).zip(ways) {
+        if let Some(open) = path.plaza.and_then(|plaza| open.get_mut(plaza.index())) {
+            open.ways.push(way);
+        }
+    }
+    if open.is_empty() { Ok(()) } else { frames.section(Tag::Plazas, &open) }
 }
 
-pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<Vec<Footpath>, SaveError> {
+/// The ways and the plazas.
+pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<(Vec<Footpath>, Vec<Plaza>), SaveError> {
     let plain: Vec<Plain> = sections.list(Tag::Footpaths, count)?;
     let ways = plain.into_iter().map(|Plain { path, width, joins }| Footpath {
         path,
@@ -54,18 +74,30 @@ pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<Vec<Footpath>,
         joins,
         level: 0,
         covered: false,
+        plaza: None,
     });
     let mut ways: Vec<Footpath> = ways.collect();
     let levels: Vec<OffGround> =
         if sections.have(Tag::Levels) { sections.one(Tag::Levels)? } else { Vec::new() };
     for OffGround { way: index, level, covered } in levels {
-        let lost = SaveError::Unsound {
-            what: Tag::Levels.name(),
-            index: index as usize,
-            fault: "refers to a way that is not there",
-        };
-        let way = ways.get_mut(index as usize).ok_or(lost)?;
+        let way = way_of(&mut ways, Tag::Levels, index)?;
         (way.level, way.covered) = (level, covered);
     }
-    Ok(ways)
+    let open: Vec<Open<Plaza>> =
+        if sections.have(Tag::Plazas) { sections.one(Tag::Plazas)? } else { Vec::new() };
+    let mut plazas = Vec::with_capacity(open.len());
+    for Open { plaza, ways: across } in open {
+        for index in across {
+            way_of(&mut ways, Tag::Plazas, index)?.plaza = Some(PlazaId::from_index(plazas.len()));
+        }
+        plazas.push(plaza);
+    }
+    Ok((ways, plazas))
+}
+
+/// The way of an index that a section names.
+fn way_of(ways: &mut [Footpath], section: Tag, index: u32) -> Result<&mut Footpath, SaveError> {
+    let fault = "refers to a way that is not there";
+    let lost = SaveError::Unsound { what: section.name(), index: index as usize, fault };
+    ways.get_mut(index as usize).ok_or(lost)
 }

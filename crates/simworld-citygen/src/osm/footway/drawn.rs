@@ -36,6 +36,8 @@ pub(super) struct Drawn {
     /// Whether its ends lie where a way that is built over begins, ends or goes on.
     pub(super) gates: [bool; 2],
     pub(super) walk: Walk,
+    /// The number of the square that it crosses.
+    pub(super) square: Option<usize>,
 }
 
 /// What a way for walkers alone is like.
@@ -52,8 +54,8 @@ pub(super) struct Walk {
 /// A way that is a line.
 pub(super) type Line<'a> = (&'a Way, Walk);
 
-/// All ways for walkers, and those on which they cross squares.
-pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
+/// All ways for walkers, those on which they cross squares, and these squares.
+pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> (Vec<Drawn>, Vec<Square>) {
     let wanted = place.raw.ways().iter().filter_map(|way| {
         let tags = place.raw.way_tags(way);
         Some((way, walk_of(&tags)?, tags.is(Key::Area, "yes")))
@@ -75,7 +77,7 @@ pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
         met.pass(&area.edge, area.walk.level);
     }
     met.part(&passed);
-    let mut drawn = across(place, &areas, &mut met);
+    let (mut drawn, squares) = across(place, &areas, &mut met);
     met.part(&passed);
     for (way, walk) in lines {
         let is_there = |node: &u32| place.point(*node).is_some();
@@ -95,7 +97,7 @@ pub(super) fn of(place: &Place, warnings: &mut Vec<Warning>) -> Vec<Drawn> {
             }
         }
     }
-    drawn
+    (drawn, squares)
 }
 
 /// What meets each node.
@@ -134,12 +136,12 @@ impl Met {
             other.or_else(|| opens(node).then_some(0))
         });
         let gates = ends.map(|node| self.gates.contains(&node));
-        Drawn { way, path, ends, meets, gates, walk }
+        Drawn { way, path, ends, meets, gates, walk, square: None }
     }
 }
 
-/// The lines across squares, between the places where other ways meet their edges.
-fn across(place: &Place, areas: &[Area], met: &mut Met) -> Vec<Drawn> {
+/// The lines across squares, between the places where other ways meet their edges, and the squares.
+fn across(place: &Place, areas: &[Area], met: &mut Met) -> (Vec<Drawn>, Vec<Square>) {
     let mut edges = vec![0_u8; met.lines.len()];
     let mut squares = Vec::new();
     for area in areas {
@@ -153,7 +155,7 @@ fn across(place: &Place, areas: &[Area], met: &mut Met) -> Vec<Drawn> {
         *count = count.saturating_add(1);
     }
     let mut drawn = Vec::new();
-    for (square, way, walk) in &squares {
+    for (number, (square, way, walk)) in squares.iter().enumerate() {
         let is_entrance = |node: u32| {
             let node = node as usize;
             met.lines[node] > 0 || met.others[node].is_some() || edges[node] > 1
@@ -166,14 +168,14 @@ fn across(place: &Place, areas: &[Area], met: &mut Met) -> Vec<Drawn> {
         for line in lines {
             let (path, ends) = (line.map(|end| square.corner(end)), line.map(|end| square.nodes[end]));
             if path[0] != path[1] {
-                drawn.push(met.drawn(*way, path.to_vec(), ends, *walk));
+                drawn.push(Drawn { square: Some(number), ..met.drawn(*way, path.to_vec(), ends, *walk) });
             }
         }
     }
     for (lines, _) in met.lines.iter_mut().zip(edges).filter(|(_, edges)| *edges > 0) {
         *lines = lines.saturating_add(2);
     }
-    drawn
+    (drawn, squares.into_iter().map(|(square, ..)| square).collect())
 }
 
 /// For each node the level of a way of traffic that is none for walkers alone, if one passes it.

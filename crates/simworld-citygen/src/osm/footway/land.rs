@@ -57,6 +57,11 @@ impl Land {
         Self { roads: near.land(network), driven, walls, beside }
     }
 
+    /// What is taken near a box, as convex outlines.
+    pub(super) fn near(&self, low: Point2, high: Point2) -> impl Iterator<Item = &[Point2]> {
+        [&self.roads, &self.driven, &self.walls].into_iter().flat_map(move |taken| taken.near(low, high))
+    }
+
     /// Whether a straight piece lies beside the roads.
     pub(super) fn is_off_roads(&self, a: Point2, b: Point2) -> bool {
         is_free(&[&self.roads, &self.driven], a, b)

@@ -8,6 +8,7 @@ use simworld_core::net::{RoadNetwork, polyline};
 use super::cut::{Run, open_runs};
 use super::drawn::Drawn;
 use super::land::Land;
+use super::square::Square;
 use crate::building::Building;
 use crate::doors::{Door, Doors};
 use crate::osm::mask::Mask;
@@ -38,8 +39,14 @@ pub(super) struct Levels<'a> {
 }
 
 impl<'a> Levels<'a> {
-    pub(super) fn of(network: &'a RoadNetwork, buildings: &[Building], drawn: &[Drawn]) -> Self {
+    pub(super) fn of(
+        network: &'a RoadNetwork,
+        buildings: &[Building],
+        drawn: &[Drawn],
+        squares: &[Square],
+    ) -> Self {
         let mut mask = Mask::new();
+        squares.iter().flat_map(Square::rings).for_each(|ring| mask.mark(ring, 0.0));
         drawn.iter().flat_map(|way| way.path.windows(2)).for_each(|piece| mask.mark(piece, JOINS));
         let off_ground = drawn.iter().filter(|way| way.walk.level != 0);
         let wanted: BTreeSet<i8> = off_ground

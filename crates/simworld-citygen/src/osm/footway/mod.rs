@@ -11,16 +11,17 @@ mod drawn;
 mod land;
 mod levels;
 mod passed;
+mod plaza;
 mod square;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::net::{Footpath, RoadNetwork, polyline};
+use simworld_core::net::{Footpath, Plaza, RoadNetwork, polyline};
 
 use super::error::{OsmId, Warning};
 use super::place::Place;
 use super::raw::MISSING;
-use crate::building::Building;
+use crate::building::{Building, Surveyed};
 use crate::occupancy::Occupancy;
 use cut::Run;
 use drawn::{Drawn, Walk};
@@ -32,19 +33,26 @@ const SHORTEST: f64 = 2.0;
 /// Points nearer than this are one, m.
 const SAME: f64 = 1e-6;
 
-/// The ways for walkers of a place, between its roads and its buildings; those from which no sidewalk is reached are left
-/// out.
-pub(super) fn paths(
+/// What of a place is for walkers alone.
+#[derive(Default)]
+pub(super) struct Footways {
+    pub(super) paths: Vec<Footpath>,
+    pub(super) plazas: Vec<Plaza>,
+}
+
+/// The ways for walkers of a place and its squares, between its roads and its buildings; those from which no sidewalk is
+/// reached are left out.
+pub(super) fn lay(
     place: &Place,
     network: &RoadNetwork,
     buildings: &[Building],
     warnings: &mut Vec<Warning>,
-) -> Vec<Footpath> {
-    let drawn = drawn::of(place, warnings);
+) -> Footways {
+    let (drawn, squares) = drawn::of(place, warnings);
     if drawn.is_empty() {
-        return Vec::new();
+        return Footways::default();
     }
-    let levels = Levels::of(network, buildings, &drawn);
+    let levels = Levels::of(network, buildings, &drawn, &squares);
     let mut given_up: BTreeSet<u32> = BTreeSet::new();
     let mut kept = Vec::new();
     for way in &drawn {
@@ -64,14 +72,21 @@ pub(super) fn paths(
     for piece in kept {
         laid.add(piece, &given_up);
     }
-    reached(place, laid, warnings)
+    let (mut paths, across) = reached(place, laid, warnings);
+    let plazas = plaza::open(&squares, levels.land(0), &mut paths, &across);
+    Footways { paths, plazas }
 }
 
-/// Takes the land of ways for walkers, so that nothing generated stands on them. What lies below others may stand on the
-/// ground above.
-pub(super) fn take(paths: &[Footpath], taken: &mut Occupancy) {
-    for way in paths.iter().filter(|way| way.level == 0) {
-        taken.add_path(&way.path, (way.width * 0.5, way.width * 0.5));
+impl Footways {
+    /// Takes their land, so that nothing generated stands on them. What lies below others may stand on the ground above.
+    pub(super) fn take(&self, taken: &mut Occupancy) {
+        for way in self.paths.iter().filter(|way| way.level == 0) {
+            taken.add_path(&way.path, (way.width * 0.5, way.width * 0.5));
+        }
+        for Plaza { edge, holes } in &self.plazas {
+            let open = Surveyed { outline: edge.clone(), courts: holes.clone() };
+            open.triangles().iter().for_each(|triangle| taken.add(triangle));
+        }
     }
 }
 
@@ -114,6 +129,8 @@ struct Laid {
     paths: Vec<Footpath>,
     /// The numbers of the ways of which they are parts.
     ways: Vec<i64>,
+    /// The numbers of the squares that they cross.
+    across: Vec<Option<usize>>,
     /// Nodes from which a way leads on to a sidewalk.
     linked: BTreeSet<u32>,
 }
@@ -131,24 +148,35 @@ impl Laid {
             let is_there = (door.at - ends[end]).norm() <= SAME;
             if is_there {
                 joins[end] = true;
-            } else if cut[end] {
+            } else if cut[end] && way.square.is_none() {
                 joins[end] = true;
                 path.insert(if end == 0 { 0 } else { path.len() }, door.at);
-            } else if self.linked.insert(node) {
-                // Others may end there, and share the end as it is.
+            } else if cut[end] || self.linked.insert(node) {
+                // Others may end there, and share the end as it is; and what lies beyond a square is no part of it.
                 let path = vec![ends[end], door.at];
                 let joins = [false, true];
-                self.paths.push(Footpath { path, width, joins, level: exit_level, covered: false });
-                self.ways.push(way.way);
+                let link = Footpath { path, width, joins, level: exit_level, covered: false, plaza: None };
+                self.put(link, way.way, None);
             }
         }
-        self.paths.push(Footpath { path, width, joins, level, covered: is_covered });
-        self.ways.push(way.way);
+        let path = Footpath { path, width, joins, level, covered: is_covered, plaza: None };
+        self.put(path, way.way, way.square);
+    }
+
+    fn put(&mut self, path: Footpath, way: i64, across: Option<usize>) {
+        self.paths.push(path);
+        self.ways.push(way);
+        self.across.push(across);
     }
 }
 
-/// The ways from which one comes to a sidewalk; bridges, subways and passages from which none does are told.
-fn reached(place: &Place, Laid { mut paths, ways, .. }: Laid, warnings: &mut Vec<Warning>) -> Vec<Footpath> {
+/// The ways from which one comes to a sidewalk, and the squares that they cross; bridges, subways and passages from which
+/// none does are told.
+fn reached(
+    place: &Place,
+    Laid { paths, ways, across, .. }: Laid,
+    warnings: &mut Vec<Warning>,
+) -> (Vec<Footpath>, Vec<Option<usize>>) {
     let ends = |way: &Footpath| {
         [way.path.first(), way.path.last()].map(|end| end.map(|end| [end.x.to_bits(), end.y.to_bits()]))
     };
@@ -181,7 +209,6 @@ fn reached(place: &Place, Laid { mut paths, ways, .. }: Laid, warnings: &mut Vec
             warnings.push(Warning { what, element: Some(OsmId::Way(way)), at });
         }
     }
-    let mut is_reached = is_reached.into_iter();
-    paths.retain(|_| is_reached.next().unwrap_or(false));
-    paths
+    let all = paths.into_iter().zip(across).zip(is_reached);
+    all.filter_map(|(way, is_reached)| is_reached.then_some(way)).unzip()
 }

@@ -79,6 +79,11 @@ impl Square {
         rings.next() == Some(true) && !rings.any(|is_within| is_within)
     }
 
+    /// The corners of its edge, and of each of its holes, m.
+    pub(super) fn rings(&self) -> impl Iterator<Item = &[Point2]> {
+        self.rings.iter().map(|ring| &self.corners[ring.clone()])
+    }
+
     /// Where a corner lies, m.
     pub(super) fn corner(&self, index: usize) -> Point2 {
         self.corners[index]
@@ -186,7 +191,7 @@ fn sides_of(ring: &Range<usize>) -> impl Iterator<Item = [usize; 2]> + Clone + u
 }
 
 /// Twice the area of a ring, positive if its corners go round counter-clockwise, m².
-fn area(ring: &[Point2]) -> f64 {
+pub(super) fn area(ring: &[Point2]) -> f64 {
     let origin = ring[0];
     ring.windows(2).map(|pair| (pair[0] - origin).perp(&(pair[1] - origin))).sum()
 }

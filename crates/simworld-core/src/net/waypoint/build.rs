@@ -126,6 +126,11 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
     let mut ends: BTreeMap<[u64; 2], (WaypointId, bool)> = BTreeMap::new();
     for footpath in &network.footpaths {
         let mut places = interpolated(&footpath.path, step);
+        let kind = footpath.plaza.map_or(WaypointKind::Footpath, WaypointKind::Plaza);
+        if let ([from, to], true) = (&places[..], footpath.plaza.is_some()) {
+            // Those on it are known by its middle.
+            places = vec![*from, nalgebra::center(from, to), *to];
+        }
         if let (Some(place), Some(end)) = (places.last_mut(), footpath.path.last()) {
             // To the bit, for others know the end by it.
             *place = *end;
@@ -135,8 +140,8 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
             let is_end = rank == 0 || rank + 1 == places.len();
             let key = [place.x.to_bits(), place.y.to_bits()];
             let known = ends.get(&key).copied().filter(|_| is_end);
-            let (here, is_joined) =
-                known.unwrap_or_else(|| (builder.add(*place, WaypointKind::Footpath), false));
+            let kind = if is_end { WaypointKind::Footpath } else { kind };
+            let (here, is_joined) = known.unwrap_or_else(|| (builder.add(*place, kind), false));
             if is_end {
                 let joins = !is_joined && footpath.joins[usize::from(rank > 0)];
                 ends.insert(key, (here, is_joined || joins));

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::{NetworkError, RoadNetwork};
 use crate::geometry::Point2;
 use crate::grid::PointGrid;
-use crate::id::{CrossingId, IntersectionId, LaneId, WaypointId};
+use crate::id::{CrossingId, IntersectionId, LaneId, PlazaId, WaypointId};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::RouteHierarchy;
 pub use route::{Route, RouteScratch};
@@ -33,6 +33,8 @@ pub enum WaypointKind {
     Lane(LaneId),
     /// A way for walkers alone.
     Footpath,
+    /// The middle of a way across a plaza: an edge that begins or ends there lies on the plaza.
+    Plaza(PlazaId),
 }
 
 /// A place one can be at.

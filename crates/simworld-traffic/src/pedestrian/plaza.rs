@@ -1,0 +1,204 @@
+//! Plazas as walkers see them: open ground that they cross as they like, side by side, and whose edges they do not cross.
+
+use std::collections::BTreeMap;
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::{PlazaId, WaypointId};
+use simworld_core::net::{Plaza, RoadNetwork, WaypointGraph, WaypointKind};
+
+use super::walkway::MARGIN;
+use crate::crowd::Wall;
+
+/// Sides farther away than this are not noticed, m: more than one walks in a step.
+const REACH: f64 = 1.5;
+/// People spread no farther than this to either side of a straight way, m, nor at a wider angle to it.
+const WIDEST: f64 = 12.0;
+const SLANT: f64 = 0.35;
+/// What is nearer to a place than this does not hide it, m.
+const GATE: f64 = 1.0;
+/// What does not fit is tried so much narrower, so often.
+const NARROWER: f64 = 0.7;
+const TRIES: u32 = 10;
+
+/// The plazas of a network.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Plazas {
+    plazas: Vec<Plaza>,
+    /// By waypoint on a straight way across: the way's direction, and the room to its right and to its left, m.
+    ways: BTreeMap<WaypointId, Straight>,
+}
+
+/// A straight way across a plaza.
+#[derive(Clone, Copy, Debug)]
+struct Straight {
+    along: Vector2,
+    /// To its right, and to its left, m.
+    room: [f64; 2],
+}
+
+impl Plazas {
+    pub(crate) fn new(network: &RoadNetwork, ways: &WaypointGraph) -> Self {
+        let mut plazas = Self { plazas: network.plazas.clone(), ways: BTreeMap::new() };
+        if plazas.plazas.is_empty() {
+            return plazas;
+        }
+        for index in 0..ways.waypoints().len() {
+            let id = WaypointId::from_index(index);
+            if on(ways, id).is_some() && !plazas.ways.contains_key(&id) {
+                plazas.measure(ways, id);
+            }
+        }
+        plazas
+    }
+
+    /// The plaza on which the way between two waypoints lies.
+    #[inline]
+    pub(super) fn between(&self, ways: &WaypointGraph, from: WaypointId, to: WaypointId) -> Option<PlazaId> {
+        if self.plazas.is_empty() {
+            return None;
+        }
+        on(ways, from).or_else(|| on(ways, to))
+    }
+
+    /// The room to the right and to the left of a waypoint for those who come to it in some direction, m; none where there is
+    /// no more than that of the way itself.
+    pub(super) fn room(&self, to: WaypointId, along: Vector2) -> Option<[f64; 2]> {
+        let Straight { along: own, room: [right, left] } = self.ways.get(&to)?;
+        Some(if own.dot(&along) >= 0.0 { [*right, *left] } else { [*left, *right] })
+    }
+
+    /// Where somebody heads who wants to come to a place: there, or if something stands between, to the place farthest on
+    /// the straight way from one place to another that can be seen, beside which nothing does.
+    pub(super) fn aim(
+        &self,
+        plaza: PlazaId,
+        at: Point2,
+        target: Point2,
+        (from, to): (Point2, Point2),
+    ) -> Point2 {
+        const SHARES: [f64; 5] = [1.0, 0.75, 0.5, 0.25, 0.0];
+        let Some(plaza) = self.plazas.get(plaza.index()) else { return target };
+        let is_seen = |place: &Point2| {
+            // A gate may lie a little beyond the edge.
+            let way = place - at;
+            let near = at + way * (1.0 - GATE / way.norm()).max(0.0);
+            !plaza.sides().any(|[a, b]| cross(a, b, at, near))
+        };
+        let along = SHARES.into_iter().map(|share| from + (to - from) * share);
+        std::iter::once(target).chain(along).find(is_seen).unwrap_or(target)
+    }
+
+    /// Whether a place is on a plaza.
+    pub(super) fn contains(&self, plaza: PlazaId, at: Point2) -> bool {
+        self.plazas.get(plaza.index()).is_some_and(|plaza| plaza.contains(at))
+    }
+
+    /// The sides of a plaza near somebody who is on it; of who is not, the nearest side, over which they may come in.
+    pub(super) fn sides(&self, plaza: PlazaId, at: Point2, walls: &mut Vec<Wall>) {
+        let Some(plaza) = self.plazas.get(plaza.index()) else { return };
+        let near = plaza.sides().filter_map(|side| wall(side, at));
+        if plaza.contains(at) {
+            walls.extend(near.filter(|wall| wall.distance >= 0.0));
+        } else {
+            let beyond = near.filter(|wall| wall.distance < 0.0);
+            walls.extend(beyond.max_by(|a, b| a.distance.total_cmp(&b.distance)));
+        }
+    }
+
+    /// Measures the room beside the straight way on which a waypoint lies.
+    fn measure(&mut self, ways: &WaypointGraph, middle: WaypointId) {
+        let Some(plaza) = on(ways, middle).and_then(|plaza| self.plazas.get(plaza.index())) else { return };
+        let mut arms = ways.edges(middle).iter().map(|edge| arm(ways, middle, edge.to));
+        let (Some(mut line), Some(after)) = (arms.next(), arms.next()) else { return };
+        line.reverse();
+        line.push(middle);
+        line.extend(after);
+        let places: Vec<Point2> = line.iter().map(|id| ways.waypoint(*id).position).collect();
+        let along = (places[places.len() - 1] - places[0]).try_normalize(1e-9);
+        let Some(along) = along else { return };
+        let left = Vector2::new(-along.y, along.x);
+        let room = [-left, left].map(|aside| room_beside(plaza, &places, aside));
+        for id in &line[1..line.len() - 1] {
+            self.ways.insert(*id, Straight { along, room });
+        }
+    }
+}
+
+/// A side of a plaza as a wall, if it is near: the plaza lies to its left.
+fn wall([from, to]: [Point2; 2], at: Point2) -> Option<Wall> {
+    let (side, offset) = (to - from, at - from);
+    let length = side.norm();
+    let (station, inside) = (offset.dot(&side) / length, side.perp(&offset) / length);
+    if inside.abs() > REACH || station > length {
+        return None;
+    }
+    if station >= 0.0 {
+        return Some(Wall { toward: Vector2::new(side.y, -side.x) / length, distance: inside });
+    }
+    // A corner that juts in: what lies beyond it lies in front of both of its sides.
+    let distance = offset.norm();
+    (inside > 0.0 && distance <= REACH).then(|| Wall { toward: -offset / distance, distance })
+}
+
+/// The plaza in the middle of which a waypoint lies.
+fn on(ways: &WaypointGraph, id: WaypointId) -> Option<PlazaId> {
+    match ways.waypoint(id).kind {
+        WaypointKind::Plaza(plaza) => Some(plaza),
+        _ => None,
+    }
+}
+
+/// The waypoints of a straight way from one of its waypoints on, as far as its end.
+fn arm(ways: &WaypointGraph, mut from: WaypointId, mut to: WaypointId) -> Vec<WaypointId> {
+    let mut found = vec![to];
+    while on(ways, to).is_some() {
+        let next = ways.edges(to).iter().map(|edge| edge.to).find(|next| *next != from);
+        let Some(next) = next.filter(|next| !found.contains(next)) else { break };
+        found.push(next);
+        (from, to) = (to, next);
+    }
+    found
+}
+
+/// How far people may walk beside a straight way, m, so that nothing stands between them and it, nor where they leave it and
+/// come back to it.
+fn room_beside(plaza: &Plaza, places: &[Point2], aside: Vector2) -> f64 {
+    let (first, last) = (places[0], places[places.len() - 1]);
+    let (second, before) = (places[1], places[places.len() - 2]);
+    let least = (second - first).norm().min((last - before).norm());
+    let mut room = (SLANT * least).min(WIDEST);
+    for _ in 0..TRIES {
+        let out = aside * (room + MARGIN);
+        if is_open(plaza, &[first, second + out, before + out, last]) {
+            return room;
+        }
+        room *= NARROWER;
+    }
+    0.0
+}
+
+/// Whether a convex outline lies on a plaza, but for what is near its first and its last corner: these may be a little beyond.
+fn is_open(plaza: &Plaza, outline: &[Point2; 4]) -> bool {
+    let [first, second, third, last] = *outline;
+    let within = |gate: Point2, next: Point2| {
+        let way = next - gate;
+        gate + way * (GATE / way.norm()).min(1.0)
+    };
+    let (first, last) = (within(first, second), within(last, third));
+    let legs = [[first, second], [second, third], [third, last]];
+    let turn = (second - first).perp(&(last - first));
+    let is_within = |corner: &Point2| {
+        let all = legs.into_iter().chain([[last, first]]);
+        all.map(|[a, b]| (b - a).perp(&(corner - a)) * -turn).all(|side| side > 0.0)
+    };
+    plaza.contains(second)
+        && plaza.contains(third)
+        && !plaza.rings().flatten().any(is_within)
+        && !plaza.sides().any(|[a, b]| legs.into_iter().any(|[c, d]| cross(a, b, c, d)))
+}
+
+/// Whether two pieces cross, their ends left out.
+fn cross(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
+    let side = |a: Point2, b: Point2, p: Point2| (b - a).perp(&(p - a));
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
