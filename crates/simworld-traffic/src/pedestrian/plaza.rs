@@ -189,7 +189,7 @@ fn is_open(plaza: &Plaza, outline: &[Point2; 4]) -> bool {
     let turn = (second - first).perp(&(last - first));
     let is_within = |corner: &Point2| {
         let all = legs.into_iter().chain([[last, first]]);
-        all.map(|[a, b]| (b - a).perp(&(corner - a)) * -turn).all(|side| side > 0.0)
+        all.map(|[a, b]| (b - a).perp(&(corner - a)) * turn).all(|side| side > 0.0)
     };
     plaza.contains(second)
         && plaza.contains(third)
@@ -201,4 +201,61 @@ fn is_open(plaza: &Plaza, outline: &[Point2; 4]) -> bool {
 fn cross(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
     let side = |a: Point2, b: Point2, p: Point2| (b - a).perp(&(p - a));
     side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(corners: &[(f64, f64)]) -> Vec<Point2> {
+        corners.iter().map(|(x, y)| Point2::new(*x, *y)).collect()
+    }
+
+    /// A plaza of 60 m by 60 m, with a thing of 1 m by 1 m so far east of the middle of the way from south to north.
+    fn with_thing(east: f64) -> Plaza {
+        let thing = [(29.5, 29.5), (29.5, 30.5), (30.5, 30.5), (30.5, 29.5)].map(|(x, y)| (x + east, y));
+        Plaza { edge: ring(&[(0.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0)]), holes: vec![ring(&thing)] }
+    }
+
+    #[test]
+    fn nothing_stands_between_a_way_and_those_beside_it() {
+        let places = ring(&[(30.0, 0.0), (30.0, 20.0), (30.0, 40.0), (30.0, 60.0)]);
+        for (east, least, most) in [(2.0, 0.3, 1.2), (6.0, 3.0, 5.2), (20.0, 6.9, 7.1), (-6.0, 6.9, 7.1)] {
+            let room = room_beside(&with_thing(east), &places, Vector2::x());
+            assert!((least..most).contains(&room), "{room} m beside a thing {east} m to the east");
+        }
+        // Nor beyond the edge.
+        let along_the_edge = ring(&[(59.0, 0.0), (59.0, 20.0), (59.0, 40.0), (59.0, 60.0)]);
+        let room = room_beside(&with_thing(0.0), &along_the_edge, Vector2::x());
+        assert!(room < 0.71, "{room} m beyond the edge");
+    }
+
+    #[test]
+    fn who_is_behind_something_goes_to_where_the_way_is_seen() {
+        let plazas = Plazas { plazas: vec![with_thing(4.0)], ways: BTreeMap::new() };
+        let way = (Point2::new(30.0, 0.0), Point2::new(30.0, 60.0));
+        let aim =
+            |at: (f64, f64)| plazas.aim(PlazaId(0), Point2::new(at.0, at.1), Point2::new(36.0, 50.0), way);
+        assert_eq!(aim((30.0, 10.0)), Point2::new(36.0, 50.0));
+        // The thing hides the place from the south and, from so near, the end of the way.
+        assert_eq!(aim((34.2, 29.0)), Point2::new(30.0, 30.0));
+    }
+
+    #[test]
+    fn sides_are_walls_for_who_is_on_it_and_let_in_who_is_not() {
+        let plazas = Plazas { plazas: vec![with_thing(4.0)], ways: BTreeMap::new() };
+        let near = |x: f64, y: f64| {
+            let mut walls = Vec::new();
+            plazas.sides(PlazaId(0), Point2::new(x, y), &mut walls);
+            walls
+        };
+        assert!(near(20.0, 20.0).is_empty());
+        assert_eq!(near(0.5, 20.0), [Wall { toward: -Vector2::x(), distance: 0.5 }]);
+        // The far side of a thin thing is no wall of who stands before it.
+        assert_eq!(near(33.2, 30.0), [Wall { toward: Vector2::x(), distance: 33.5 - 33.2 }]);
+        assert_eq!(near(-0.25, 20.0), [Wall { toward: -Vector2::x(), distance: -0.25 }]);
+        // A corner that juts in.
+        let [corner, ..] = near(33.2, 29.2)[..] else { panic!("{:?}", near(33.2, 29.2)) };
+        assert!((corner.distance - 0.3 * 2.0_f64.sqrt()).abs() < 1e-9 && corner.toward.x > 0.0);
+    }
 }
