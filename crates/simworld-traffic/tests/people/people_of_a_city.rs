@@ -70,8 +70,7 @@ fn grid_with_a_footpath() -> Arc<RoadNetwork> {
         path: vec![at(from), at(to)],
         width: 3.0,
         joins,
-        level: 0,
-        covered: false,
+        ..Footpath::default()
     };
     network.footpaths = vec![piece(7.1, 51.7, [true, false]), piece(51.7, 102.9, [false, true])];
     network.check().unwrap();

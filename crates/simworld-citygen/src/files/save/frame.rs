@@ -33,11 +33,12 @@ pub(super) enum Tag {
     /// As before there were sections after ways for walkers.
     End,
     Levels,
+    Steps,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 15] = [
+    const ALL: [(Self, &'static str); 16] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
         (Self::Buildings, "the buildings"),
@@ -52,6 +53,7 @@ impl Tag {
         (Self::Names, "the street names"),
         (Self::Footpaths, "the ways for walkers"),
         (Self::Levels, "the ways for walkers off the ground"),
+        (Self::Steps, "the flights of steps off the ground"),
         (Self::End, "the end"),
     ];
 

@@ -1,5 +1,6 @@
-//! Ways for walkers: as they were saved before they had levels, and a section of their own for those that lie off the ground
-//! or are built over. Where there are none that section is left out, so that the bytes are those of before.
+//! Ways for walkers: as they were saved before they had levels, a section of their own for those that lie off the ground
+//! or are built over, and one for those of them that are steps. Where there are none a section is left out, so that the bytes
+//! are those of before.
 
 use std::io::Write;
 
@@ -43,7 +44,12 @@ pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, ways: &[Footpath]) -> 
     let levels: Vec<OffGround> = off_ground
         .map(|(index, way)| OffGround { way: index as u32, level: way.level, covered: way.covered })
         .collect();
-    if levels.is_empty() { Ok(()) } else { frames.section(Tag::Levels, &levels) }
+    if !levels.is_empty() {
+        frames.section(Tag::Levels, &levels)?;
+    }
+    let steps = ways.iter().enumerate().filter(|(_, way)| way.steps);
+    let steps: Vec<u32> = steps.map(|(index, _)| index as u32).collect();
+    if steps.is_empty() { Ok(()) } else { frames.section(Tag::Steps, &steps) }
 }
 
 pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<Vec<Footpath>, SaveError> {
@@ -52,20 +58,28 @@ pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<Vec<Footpath>,
         path,
         width,
         joins,
-        level: 0,
-        covered: false,
+        ..Footpath::default()
     });
     let mut ways: Vec<Footpath> = ways.collect();
     let levels: Vec<OffGround> =
         if sections.have(Tag::Levels) { sections.one(Tag::Levels)? } else { Vec::new() };
-    for OffGround { way: index, level, covered } in levels {
-        let lost = SaveError::Unsound {
-            what: Tag::Levels.name(),
-            index: index as usize,
-            fault: "refers to a way that is not there",
-        };
-        let way = ways.get_mut(index as usize).ok_or(lost)?;
+    for OffGround { way, level, covered } in levels {
+        let way = named(&mut ways, way, Tag::Levels)?;
         (way.level, way.covered) = (level, covered);
     }
+    let steps: Vec<u32> = if sections.have(Tag::Steps) { sections.one(Tag::Steps)? } else { Vec::new() };
+    for way in steps {
+        named(&mut ways, way, Tag::Steps)?.steps = true;
+    }
     Ok(ways)
+}
+
+/// The way that a section names.
+fn named(ways: &mut [Footpath], index: u32, section: Tag) -> Result<&mut Footpath, SaveError> {
+    let lost = SaveError::Unsound {
+        what: section.name(),
+        index: index as usize,
+        fault: "refers to a way that is not there",
+    };
+    ways.get_mut(index as usize).ok_or(lost)
 }

@@ -121,7 +121,7 @@ struct Laid {
 impl Laid {
     fn add(&mut self, Piece { way, run, exits }: Piece<'_>, given_up: &BTreeSet<u32>) {
         let Run { mut path, cut } = run;
-        let Walk { width, level, is_covered } = way.walk;
+        let Walk { width, level, is_covered: covered, is_steps } = way.walk;
         let ends = [path[0], path[path.len() - 1]];
         let mut joins = [false; 2];
         for (end, exit) in exits.into_iter().enumerate() {
@@ -138,11 +138,14 @@ impl Laid {
                 // Others may end there, and share the end as it is.
                 let path = vec![ends[end], door.at];
                 let joins = [false, true];
-                self.paths.push(Footpath { path, width, joins, level: exit_level, covered: false });
+                let level = exit_level;
+                self.paths.push(Footpath { path, width, joins, level, ..Footpath::default() });
                 self.ways.push(way.way);
             }
         }
-        self.paths.push(Footpath { path, width, joins, level, covered: is_covered });
+        // Of steps on the ground nothing depends.
+        let steps = is_steps && level != 0;
+        self.paths.push(Footpath { path, width, joins, level, covered, steps });
         self.ways.push(way.way);
     }
 }
