@@ -205,7 +205,7 @@ fn some_cross_at_red_in_a_gap_and_none_who_would_not() {
 /// A car of 4.5 by 1.8 m.
 fn car(position: Point2, velocity: Vector2) -> Foreign {
     let direction = velocity.try_normalize(1e-9).unwrap_or_else(Vector2::x);
-    Foreign { position, radius: 2.25, half_width: 0.9, direction, velocity }
+    Foreign { position, radius: 2.25, half_width: 0.9, direction, velocity, height: 0.0 }
 }
 
 /// A car goes to and fro over a crossing at a speed, whatever the signals say. Returns how many began to cross before it

@@ -165,6 +165,11 @@ impl WaypointGraph {
         self.edges(from).iter().find(|edge| edge.to == to)
     }
 
+    /// Whether all of its waypoints are on the ground.
+    pub fn is_level(&self) -> bool {
+        self.heights.is_empty()
+    }
+
     /// Height of a waypoint of this graph above the ground, m: more than nothing on footbridges, and on the stairs and ramps
     /// that lead to them (see [`RoadNetwork::footpath_heights`]).
     pub fn height(&self, id: WaypointId) -> f64 {
