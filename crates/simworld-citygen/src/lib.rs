@@ -10,6 +10,7 @@ mod doors;
 pub mod edit;
 pub mod element;
 mod error;
+mod footbridges;
 pub mod files;
 mod geo;
 pub mod graph;

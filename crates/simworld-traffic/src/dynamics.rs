@@ -97,8 +97,8 @@ impl TrafficDynamics {
             vehicles[body.id as usize] = world.spawn(describe(&body, &mut paint))?;
         }
         let mut pedestrians = Vec::new();
-        for walker in traffic.pedestrians() {
-            pedestrians.push(world.spawn(portray(walker, &mut paint))?);
+        for (walker, number) in traffic.pedestrians().iter().zip(0..) {
+            pedestrians.push(world.spawn(portray(walker, traffic.walker_height(number), &mut paint))?);
         }
         world.signals_mut().copy_from_slice(traffic.signals());
         Ok(Self {
@@ -204,7 +204,7 @@ impl TrafficDynamics {
             let entered = self.traffic.counters().walkers_entered;
             let mut paint = self.paint.named("walkers").indexed(entered).indexed(u64::from(*index)).rng();
             if walker.is_present() {
-                let id = world.spawn(portray(walker, &mut paint))?;
+                let id = world.spawn(portray(walker, self.traffic.walker_height(*index), &mut paint))?;
                 self.pedestrians[*index as usize] = id;
                 self.others.claim(id, Who::Walker(*index));
             }
@@ -235,11 +235,13 @@ impl TrafficDynamics {
                 world.set_motion(id, body.pose, body.twist)?;
             }
         }
-        for (id, walker) in self.pedestrians.iter().zip(self.traffic.pedestrians()) {
+        for ((id, walker), number) in self.pedestrians.iter().zip(self.traffic.pedestrians()).zip(0..) {
             if !walker.is_present() || world.entity(*id).is_none() || self.is_handed(*id) {
                 continue;
             }
-            let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading());
+            let height = self.traffic.walker_height(number);
+            let pose =
+                pose_facing(Point3::new(walker.position.x, walker.position.y, height), walker.heading());
             let linear = Vector3::new(walker.velocity().x, walker.velocity().y, 0.0);
             world.set_motion(*id, pose, Twist { linear, angular: Vector3::zeros() })?;
         }
@@ -272,9 +274,9 @@ fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     desc.colored(PAINTS[paint.below(PAINTS.len())])
 }
 
-/// A person as tall as their age and sex say: grown up at 18, 1.78 m or 1.65 m tall on average (NCD-RisC 2016, Europe).
-fn portray(walker: &Pedestrian, paint: &mut StreamRng) -> EntityDesc {
-    let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading());
+/// A person at a height above the ground, m, as tall as their age and sex say: grown up at 18, 1.78 m or 1.65 m tall on average (NCD-RisC 2016, Europe).
+fn portray(walker: &Pedestrian, height_above: f64, paint: &mut StreamRng) -> EntityDesc {
+    let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, height_above), walker.heading());
     let grown = if walker.sex() == Sex::Male { 1.78 } else { 1.65 };
     let growing = (18.0 - f64::from(walker.age())).max(0.0) * 0.05;
     let height = paint.normal_clamped(grown - growing, 0.07, 1.0, 2.1);
@@ -292,6 +294,7 @@ fn seen(entity: &EntityRef<'_>) -> Foreign {
         half_width: size.y,
         direction: direction(yaw_of(entity.pose)),
         velocity: Vector2::new(linear.x, linear.y),
+        height: entity.pose.translation.z,
     }
 }
 

@@ -357,7 +357,7 @@ impl Traffic {
         outline::threats(&self.tracks.network, &self.finder, foreign, &mut self.threats);
         self.bodies.truncate(self.standing_bodies);
         for body in foreign {
-            outline::outline(body, self.config.walking.radius, &mut self.bodies);
+            outline::outline(body, self.config.walking.radius, &self.ways, &mut self.bodies);
         }
         let State { vehicles, pedestrians, counters, steps, seconds, interest, .. } = &mut self.state;
         pedestrians.entered.clear();

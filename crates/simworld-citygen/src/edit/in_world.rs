@@ -114,7 +114,12 @@ impl CityInWorld {
         let roads = back.network.mirrored(&editor.city().network);
         let (mut now, mut then) = (touched_now(&back, editor.city()), touched_then(&back));
         let view_now = View::of(editor.city(), &now);
+        let mut raised = raised(editor.city());
         let forth = editor.put(back)?;
+        // Footbridges rise over what comes below them.
+        raised.extend(self::raised(editor.city()));
+        then.roads.footpaths.extend(&raised);
+        now.roads.footpaths.extend(&raised);
         let reach = Reach::between(&View::of(editor.city(), &then), &view_now);
         reach.widen(editor, &mut then);
         let old = describe(editor.city(), &then, &reach, world);
@@ -158,6 +163,11 @@ pub(super) struct Things {
     pub(super) roads: Touched,
     pub(super) buildings: BTreeSet<usize>,
     pub(super) elements: BTreeSet<usize>,
+}
+
+/// The ways for walkers that leave the ground, by their numbers.
+fn raised(city: &City) -> BTreeSet<usize> {
+    city.network.footpath_heights().raised().map(|(way, _)| way).collect()
 }
 
 fn touched_now(back: &CityPatch, city: &City) -> Things {

@@ -265,9 +265,7 @@ impl Trails {
             path: planar(line),
             width: TRAIL_WIDTH,
             joins: [true; 2],
-            level: 0,
-            covered: false,
-            plaza: None,
+            ..Footpath::default()
         };
         self.lines().into_iter().map(way).collect()
     }

@@ -76,7 +76,7 @@ impl Parts<'_> {
 }
 
 /// A box along a span between two distances to the left of the centreline, its top so far above the carriageway.
-fn beam(
+pub(super) fn beam(
     kind: EntityKind,
     span: &Span,
     (left, right): (f64, f64),

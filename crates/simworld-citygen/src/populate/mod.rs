@@ -2,12 +2,14 @@
 
 mod assets;
 mod bridges;
+mod footbridges;
 mod ground;
 mod scope;
 
 use std::sync::Arc;
 
 use assets::Assets;
+pub(crate) use footbridges::{PIER, RAILING};
 pub(crate) use scope::{Scope, Touched};
 use simworld_core::geometry::{Obb, Point2, Point3, Pose, Vector2, heading, pose_facing};
 use simworld_core::id::{AssetId, EntityId};
@@ -252,6 +254,7 @@ impl Parts<'_> {
                 self.walk(&in_pieces(&way.path, CLIMB), way.width, &mut descs);
             }
         }
+        self.footbridges(&mut descs);
         descs
     }
 

@@ -52,6 +52,15 @@ impl Parts<'_> {
         }
     }
 
+    /// Whether a way for walkers alone is meant; tiles have none.
+    pub(super) fn has_footpath(&self, way: usize) -> bool {
+        match self.scope {
+            Scope::All => true,
+            Scope::Tile(_) => false,
+            Scope::Touched(touched) => touched.footpaths.contains(&way),
+        }
+    }
+
     /// Whether a tile has what lies on one side of a road; true without tiles.
     fn has_side(&self, road: RoadId, side: Side) -> bool {
         match self.scope {

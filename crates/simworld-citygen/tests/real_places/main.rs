@@ -4,6 +4,7 @@
 mod bridges_clear_what_they_cross;
 mod drawn_streets_become_junctions;
 mod footbridges_and_subways;
+mod footbridges_are_built;
 mod hostile_extracts_are_survived;
 mod junctions_of_real_places_are_sound;
 #[cfg(feature = "osm")]

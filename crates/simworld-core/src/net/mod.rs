@@ -3,6 +3,7 @@
 mod assemble;
 mod check;
 mod derive;
+mod footpath_heights;
 mod gaps;
 mod hammerhead;
 #[cfg(feature = "hierarchy")]
@@ -24,6 +25,9 @@ mod zone;
 pub use assemble::{NetworkBuilder, NewLane, NewRoad};
 pub use check::NetworkFault;
 pub use derive::{Alone, NetworkConfig, NetworkError, Workers};
+pub use footpath_heights::{
+    FOOTBRIDGE_DECK, FOOTBRIDGE_HEADROOM, FOOTBRIDGE_STOREY, FootpathHeights, RAMP_GRADE, STAIRS_GRADE,
+};
 pub use gaps::{CriticalGaps, time_over};
 pub use hammerhead::{HAMMERHEAD_ARM, HAMMERHEAD_WIDTH};
 #[cfg(feature = "hierarchy")]

@@ -297,8 +297,9 @@ pub struct Crossing {
 /// A way for walkers alone, away from streets: a trail, a field path, a lane of steps, a footbridge.
 ///
 /// It has no lanes and no kerb. Ways that share an end meet there, on whatever level they are; an end that joins leads on to
-/// a sidewalk near it. Where lines merely cross nobody comes from one to the other.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// a sidewalk near it. Where lines merely cross nobody comes from one to the other. How high it lies above the ground follows
+/// from all of them: see [`RoadNetwork::footpath_heights`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Footpath {
     /// Its middle, from end to end, at least two points, m.
     pub path: Vec<Point2>,
@@ -315,6 +316,9 @@ pub struct Footpath {
     /// The plaza that it crosses, if it does: those on it may leave the line, but not the plaza.
     #[serde(default)]
     pub plaza: Option<PlazaId>,
+    /// Whether it is a flight of steps; known of ways off the ground alone.
+    #[serde(default)]
+    pub steps: bool,
 }
 
 /// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.

@@ -17,9 +17,7 @@ fn graph(ways: &[Way<'_>]) -> WaypointGraph {
             path: path.iter().map(|(x, y)| Point2::new(*x, *y)).collect(),
             width: 2.0,
             joins: *joins,
-            level: 0,
-            covered: false,
-            plaza: None,
+            ..Footpath::default()
         })
         .collect();
     network.check().unwrap();

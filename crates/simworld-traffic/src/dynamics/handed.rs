@@ -80,6 +80,7 @@ impl TrafficDynamics {
                 Who::Walker(id) => {
                     let velocity = Vector2::new(twist.linear.x, twist.linear.y);
                     traffic.place_walker(*id, planar(&pose), direction(yaw_of(&pose)), velocity).is_ok()
+                        && traffic.place_walker_at_height(*id, pose.translation.z).is_ok()
                 }
             }
         });

@@ -1,11 +1,13 @@
 //! The walkers of a city as a crowd.
 
+use std::collections::BTreeMap;
+
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::WaypointGraph;
 
 use super::decide::CROSSING_SPEED;
 use super::walkway::Walkway;
-use super::{Pedestrian, Plazas, Range, Stage, party};
+use super::{Pedestrian, Plazas, Range, Stage, on_storey, party};
 use crate::crowd::{Herd, Look, Person, Wall, Wish};
 
 /// Where those stand who have left, m: nobody is there.
@@ -20,6 +22,8 @@ pub(super) struct Streets<'a> {
     pub(super) bodies: &'a [Person],
     pub(super) ways: &'a WaypointGraph,
     pub(super) plazas: &'a Plazas,
+    /// How high those stand whom somebody else moves, m, by number.
+    pub(super) free: &'a BTreeMap<u32, f64>,
     /// Whether those decide too who do so now and then.
     pub(super) turn: bool,
     /// Time until those decide again, s.
@@ -38,6 +42,17 @@ impl Streets<'_> {
             return self.walkers.get(index);
         }
         self.walkers.get(*self.subset.get(index)? as usize)
+    }
+
+    /// A walker as those of its storey see it.
+    fn seen(&self, index: usize, walker: &Pedestrian) -> Person {
+        let person = walker.person();
+        if self.ways.is_level() {
+            return person;
+        }
+        let number = self.subset.get(index).copied().unwrap_or(index as u32);
+        let free = self.free.get(&number).filter(|_| walker.stage == Stage::Free);
+        on_storey(person, free.copied().unwrap_or_else(|| walker.height(self.ways)), self.ways)
     }
 
     fn body(&self, index: usize) -> Person {
@@ -74,7 +89,7 @@ impl Herd for Streets<'_> {
 
     fn person(&self, index: usize) -> Person {
         match self.walker(index) {
-            Some(walker) if walker.is_present() => walker.person(),
+            Some(walker) if walker.is_present() => self.seen(index, walker),
             Some(_) => Person::standing(Point2::new(NOWHERE, NOWHERE), Vector2::x()),
             None => self.body(index),
         }
@@ -96,7 +111,8 @@ impl Herd for Streets<'_> {
         if wish.speed > 0.0 {
             walkway.edges(walker.position, self.plazas, walls);
         }
-        Some(Look { person: walker.person(), wish, hold: if is_near { self.dt } else { self.until_turn } })
+        let hold = if is_near { self.dt } else { self.until_turn };
+        Some(Look { person: self.seen(index, walker), wish, hold })
     }
 
     fn committed(&self, index: usize, time: f64) -> Option<Vector2> {

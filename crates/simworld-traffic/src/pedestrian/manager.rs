@@ -237,12 +237,13 @@ impl PedestrianManager {
     }
 
     fn walk(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, turn: bool, until_turn: f64, dt: f64) {
-        let Self { walkers, crowd, subset, .. } = self;
+        let Self { walkers, crowd, subset, guides, .. } = self;
         let some = if turn { &[][..] } else { subset };
         if turn || !some.is_empty() {
             let Surroundings { workers, config, bodies, .. } = around;
             let Sight { ways, plazas, .. } = *sight;
-            let herd = Streets { walkers, subset: some, bodies, ways, plazas, turn, until_turn, dt };
+            let free = &guides.free;
+            let herd = Streets { walkers, subset: some, bodies, ways, plazas, free, turn, until_turn, dt };
             crowd.decide(*workers, (&config.walking, config.people.steering), &herd);
         }
         for (rank, index) in some.iter().enumerate() {

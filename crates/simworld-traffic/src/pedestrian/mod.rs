@@ -12,6 +12,7 @@ mod party;
 mod place;
 mod plaza;
 mod profile;
+mod storey;
 mod takeover;
 mod walkway;
 
@@ -22,10 +23,12 @@ pub(crate) use manager::{PedestrianManager, Surroundings, Time};
 pub(crate) use place::Entry;
 pub(crate) use plaza::Plazas;
 pub use profile::Sex;
+pub(crate) use storey::on_storey;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Vector2, heading};
 use simworld_core::id::{CrossingId, WaypointId};
+use simworld_core::net::WaypointGraph;
 
 use crate::crowd::Person;
 
@@ -150,6 +153,11 @@ impl Pedestrian {
     /// The waypoints that it walks between, of [`Traffic::walkways`](crate::Traffic::walkways).
     pub fn way(&self) -> (WaypointId, WaypointId) {
         (self.from, self.to)
+    }
+
+    /// How high it is on its way, m above the ground.
+    pub(crate) fn height(&self, ways: &WaypointGraph) -> f64 {
+        ways.height_between(self.from, self.to, self.position)
     }
 
     fn direction(&self) -> Vector2 {

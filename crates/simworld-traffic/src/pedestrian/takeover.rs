@@ -1,6 +1,6 @@
 //! Walkers that somebody else guides on their way, or moves as free bodies.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Vector2};
@@ -16,7 +16,8 @@ use crate::takeover::{Control, ControlError, Stroll};
 pub(super) struct Guides {
     /// What they were, by number.
     guided: BTreeMap<u32, Nature>,
-    free: BTreeSet<u32>,
+    /// How high each stands, m.
+    pub(super) free: BTreeMap<u32, f64>,
 }
 
 /// What is a walker's own.
@@ -39,7 +40,7 @@ impl Guides {
         let is_free =
             |index: &u32| walkers.get(*index as usize).is_some_and(|walker| walker.stage == Stage::Free);
         free == self.free.len()
-            && self.free.iter().all(is_free)
+            && self.free.iter().all(|(index, height)| is_free(index) && height.is_finite())
             && self.guided.iter().all(|(index, nature)| {
                 (*index as usize) < walkers.len()
                     && nature.free_speed.is_finite()
@@ -50,6 +51,9 @@ impl Guides {
     pub(super) fn state_hash(&self, hasher: &mut StateHasher) {
         for (index, nature) in &self.guided {
             hasher.u64(u64::from(*index)).f64(f64::from(nature.free_speed)).f64(f64::from(nature.keep_right));
+        }
+        for (index, height) in self.free.iter().filter(|(_, height)| **height != 0.0) {
+            hasher.u64(u64::from(*index)).f64(*height);
         }
     }
 }
@@ -77,8 +81,8 @@ impl PedestrianManager {
         Ok(())
     }
 
-    /// Lifts a walker off its way.
-    pub(crate) fn lift(&mut self, id: u32) -> Result<(), ControlError> {
+    /// Lifts a walker off its way, at the height that it has there, m.
+    pub(crate) fn lift(&mut self, id: u32, height: f64) -> Result<(), ControlError> {
         if self.present(id)?.stage == Stage::Free {
             let (wanted, mend) = ("on its way", "it is a free body already");
             return Err(ControlError::NotSo { what: "walker", id, wanted, mend });
@@ -88,7 +92,7 @@ impl PedestrianManager {
         let walker = self.present(id)?;
         walker.stage = Stage::Free;
         walker.leave_party(id);
-        self.guides.free.insert(id);
+        self.guides.free.insert(id, height);
         self.forget_subset();
         Ok(())
     }
@@ -109,6 +113,19 @@ impl PedestrianManager {
         (walker.position, walker.velocity) = (at, velocity);
         walker.facing = [facing.x as f32, facing.y as f32];
         Ok(())
+    }
+
+    /// Says how high a free walker stands, m.
+    pub(crate) fn place_at_height(&mut self, id: u32, height: f64) -> Result<(), ControlError> {
+        let (wanted, mend) = ("a free body", "take it over by Traffic::free_walker first");
+        let own = self.guides.free.get_mut(&id);
+        *own.ok_or(ControlError::NotSo { what: "walker", id, wanted, mend })? = height;
+        Ok(())
+    }
+
+    /// How high a free walker stands, m.
+    pub(crate) fn free_height(&self, id: u32) -> Option<f64> {
+        self.guides.free.get(&id).copied()
     }
 
     /// Gives a walker that is guided its own ways back; false if it is not.
@@ -162,9 +179,9 @@ impl PedestrianManager {
         })
     }
 
-    /// The walkers that are free bodies, by number.
-    pub(crate) fn free_bodies(&self) -> impl Iterator<Item = &Pedestrian> {
-        self.guides.free.iter().filter_map(|id| self.walkers.get(*id as usize))
+    /// The walkers that are free bodies, by number, and how high each stands, m.
+    pub(crate) fn free_bodies(&self) -> impl Iterator<Item = (&Pedestrian, f64)> {
+        self.guides.free.iter().filter_map(|(id, height)| Some((self.walkers.get(*id as usize)?, *height)))
     }
 }
 

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use simworld_core::geometry::{Point2, Vector2, direction};
+use simworld_core::id::RoadId;
 use simworld_core::lists::Lists;
-use simworld_core::net::polyline;
+use simworld_core::net::{RoadNetwork, polyline};
 
 use crate::vehicle::{Obstacle, Tracks};
 
@@ -27,6 +28,11 @@ const MOST_DISCS: f64 = 20.0;
 const BROAD: f64 = 1.5;
 /// How far those reach, m: what they touch is filed in the cell of their middle.
 const EDGE: f64 = 1.0;
+/// Who is higher than this above a street is in nobody's way, m: on public roads vehicles are 4 m high at most in Europe (Directive
+/// 96/53/EC) and 14 feet in most states of the USA.
+const OVERHEAD: f64 = 4.5;
+/// Nor is who stands so far below it, m, as in a subway.
+const BELOW: f64 = 2.2;
 
 /// A body that is not the traffic's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,12 +47,27 @@ pub struct Foreign {
     pub direction: Vector2,
     /// m/s.
     pub velocity: Vector2,
+    /// How high its lower side is above the ground level of the world, m. Who is on a footbridge high above a street, or far below
+    /// it, is in the way of nobody there.
+    pub height: f64,
 }
 
 impl Foreign {
-    /// A round body that stands: how far it reaches to all sides, m.
+    /// A round body that stands on the ground: how far it reaches to all sides, m.
     pub fn standing(position: Point2, radius: f64) -> Self {
-        Self { position, radius, half_width: radius, direction: Vector2::x(), velocity: Vector2::zeros() }
+        let (direction, velocity) = (Vector2::x(), Vector2::zeros());
+        Self { position, radius, half_width: radius, direction, velocity, height: 0.0 }
+    }
+
+    /// Whether it is so high above a street at a place, or so far below it, that it is in nobody's way.
+    pub(super) fn is_clear_of(&self, network: &RoadNetwork, road: RoadId, at: Point2) -> bool {
+        // Almost all stand on the ground, and it need not be asked how high the street lies.
+        if (-BELOW..=OVERHEAD).contains(&self.height) {
+            return false;
+        }
+        let near = polyline::closest(&network.roads[road.index()].centerline, &at);
+        let above = self.height - network.height(road, near.map_or(0.0, |near| near.station));
+        above > OVERHEAD || (self.height < -BELOW && above < -BELOW)
     }
 }
 
@@ -155,6 +176,9 @@ impl Finder {
                 for track in self.tracks_at(at) {
                     let near = polyline::closest(tracks.path(track), &at);
                     let Some(near) = near.filter(|near| near.distance < SWEPT + reach) else { continue };
+                    if body.is_clear_of(&tracks.network, road_of(tracks, track), at) {
+                        continue;
+                    }
                     let (back, front) = (near.station - reach, near.station + reach);
                     let aside = near.distance - reach;
                     let across = (near.lateral - reach, near.lateral + reach);
@@ -199,6 +223,7 @@ impl Finder {
             self.tracks_at(at).any(|track| {
                 let near = polyline::closest(tracks.path(track), &at);
                 near.zip(half(track)).is_some_and(|(near, half)| near.distance < half + reach)
+                    && !body.is_clear_of(&tracks.network, road_of(tracks, track), at)
             })
         })
     }
@@ -211,7 +236,8 @@ impl Finder {
             let crossing = &tracks.network.crossings[*index as usize];
             let strip = [crossing.start, crossing.end];
             let near = polyline::closest(&strip, &body.position);
-            if near.is_some_and(|near| near.distance <= crossing.width * 0.5 + reach) {
+            let is_on = near.is_some_and(|near| near.distance <= crossing.width * 0.5 + reach);
+            if is_on && !body.is_clear_of(&tracks.network, crossing.road, body.position) {
                 on_crossing[*index as usize] += 1;
                 crosses = true;
             }
@@ -225,6 +251,12 @@ impl Finder {
     }
 }
 
+/// The road of a lane, or that from which a way across a junction comes.
+fn road_of(tracks: &Tracks, track: u32) -> RoadId {
+    let lane = tracks.connection(track).map_or(track, |way| tracks.ways[way].from);
+    tracks.network.lanes[lane as usize].road
+}
+
 impl Foreign {
     /// Whether it is somewhere, and of a size that bodies have.
     pub(super) fn is_sound(&self) -> bool {
@@ -235,7 +267,7 @@ impl Foreign {
         const FASTEST: f64 = 300.0;
         let [at, ahead, moving] = [self.position.coords, self.direction, self.velocity];
         [ahead.x, ahead.y].iter().all(|number| number.is_finite())
-            && [at.x, at.y].iter().all(|number| number.abs() <= FARTHEST)
+            && [at.x, at.y, self.height].iter().all(|number| number.abs() <= FARTHEST)
             && [moving.x, moving.y].iter().all(|number| number.abs() <= FASTEST)
             && (0.0..=LONGEST).contains(&self.radius)
             && (0.0..=LONGEST).contains(&self.half_width)

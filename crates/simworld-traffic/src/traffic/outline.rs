@@ -1,11 +1,12 @@
 //! Bodies that are not walkers, as walkers see them: rows of people along their outlines, and threats at crossings.
 
 use simworld_core::geometry::{Point2, Vector2};
-use simworld_core::net::{RoadNetwork, polyline};
+use simworld_core::net::{RoadNetwork, WaypointGraph, polyline};
 
 use super::Foreign;
 use super::foreign::Finder;
 use crate::crowd::Person;
+use crate::pedestrian::on_storey;
 
 /// Braking that one trusts a driver with, m/s².
 const TRUSTED: f64 = 3.0;
@@ -18,10 +19,12 @@ const RUNNING: f64 = 3.0;
 const SMALL: f64 = 0.8;
 
 /// Adds people along the outline of a body, so close that nobody passes between them.
-pub(super) fn outline(body: &Foreign, radius: f64, people: &mut Vec<Person>) {
+pub(super) fn outline(body: &Foreign, radius: f64, ways: &WaypointGraph, people: &mut Vec<Person>) {
     let speed = body.velocity.norm();
     let direction = if speed > 0.0 { body.velocity / speed } else { Vector2::zeros() };
-    let mut add = |position: Point2| people.push(Person { position, direction, speed });
+    let mut add = |position: Point2| {
+        people.push(on_storey(Person { position, direction, speed }, body.height, ways));
+    };
     // The outermost touch the outline from within.
     let (length, width) = ((body.radius - radius).max(0.0), (body.half_width - radius).max(0.0));
     if length.max(width) < 0.2 * radius {
@@ -56,6 +59,9 @@ pub(super) fn threats(network: &RoadNetwork, finder: &Finder, foreign: &[Foreign
         let end = body.position + body.velocity * (reach / speed);
         finder.crossings_along(body.position, end, &mut |index| {
             let crossing = &network.crossings[index as usize];
+            if body.is_clear_of(network, crossing.road, crossing.start) {
+                return;
+            }
             let strip = [crossing.start, crossing.end];
             let half = crossing.width * 0.5 + body.radius;
             let is_on = polyline::closest(&strip, &body.position).is_some_and(|near| near.distance <= half);

@@ -126,8 +126,9 @@ impl Traffic {
         let count = gathered.len();
         let radius = self.config.walking.radius;
         let walkers = self.state.pedestrians.free_bodies();
-        let walkers = walkers.map(|walker| Foreign {
+        let walkers = walkers.map(|(walker, height)| Foreign {
             velocity: walker.velocity(),
+            height,
             ..Foreign::standing(walker.position, radius)
         });
         gathered.extend(walkers.filter(Foreign::is_sound));
@@ -147,6 +148,7 @@ impl Foreign {
             half_width: size.y,
             direction: direction(yaw_of(&body.pose)),
             velocity: Vector2::new(linear.x, linear.y),
+            height: body.pose.translation.z,
         }
     }
 }

@@ -22,7 +22,18 @@ impl Traffic {
     /// # Errors
     /// No walker of that number, or one that is free already.
     pub fn free_walker(&mut self, id: u32) -> Result<(), ControlError> {
-        self.state.pedestrians.lift(id)
+        let height = self.walker_height(id);
+        self.state.pedestrians.lift(id, height)
+    }
+
+    /// Says how high a free walker stands above the ground level of the world, m, from now on; at first it is as high as it was. Drivers
+    /// below do not mind who is on a footbridge.
+    ///
+    /// # Errors
+    /// It is not free, or the height is not finite; nothing is changed then.
+    pub fn place_walker_at_height(&mut self, id: u32, height: f64) -> Result<(), ControlError> {
+        finite_in_plane("height", Vector2::new(height, 0.0))?;
+        self.state.pedestrians.place_at_height(id, height)
     }
 
     /// Puts a free walker somewhere, m in the world's frame, looking in a direction, at a velocity, m/s.

@@ -15,6 +15,14 @@ impl Traffic {
         &self.ways
     }
 
+    /// How high a walker stands above the ground, m: more than nothing on footbridges and on the stairs and ramps that lead to them;
+    /// who is a free body, as high as somebody else says. Nothing if nobody has the number.
+    pub fn walker_height(&self, id: u32) -> f64 {
+        let pedestrians = &self.state.pedestrians;
+        let on_way = || pedestrians.walkers.get(id as usize).map(|walker| walker.height(&self.ways));
+        pedestrians.free_height(id).or_else(on_way).unwrap_or(0.0)
+    }
+
     /// Lets somebody enter at the waypoint nearest to a place, and returns their number; see [`pedestrians`](Self::pedestrians).
     ///
     /// With a destination they take the shortest way to the waypoint nearest to it, and leave there; without one they walk
@@ -103,7 +111,7 @@ impl Traffic {
     pub fn set_obstacles(&mut self, obstacles: &[Foreign]) {
         self.bodies.clear();
         for obstacle in obstacles.iter().filter(|body| body.is_sound()) {
-            outline(obstacle, self.config.walking.radius, &mut self.bodies);
+            outline(obstacle, self.config.walking.radius, &self.ways, &mut self.bodies);
         }
         self.standing_bodies = self.bodies.len();
     }

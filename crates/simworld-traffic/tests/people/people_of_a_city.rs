@@ -70,9 +70,7 @@ fn grid_with_a_footpath() -> Arc<RoadNetwork> {
         path: vec![at(from), at(to)],
         width: 3.0,
         joins,
-        level: 0,
-        covered: false,
-        plaza: None,
+        ..Footpath::default()
     };
     network.footpaths = vec![piece(7.1, 51.7, [true, false]), piece(51.7, 102.9, [false, true])];
     network.check().unwrap();
@@ -207,7 +205,7 @@ fn some_cross_at_red_in_a_gap_and_none_who_would_not() {
 /// A car of 4.5 by 1.8 m.
 fn car(position: Point2, velocity: Vector2) -> Foreign {
     let direction = velocity.try_normalize(1e-9).unwrap_or_else(Vector2::x);
-    Foreign { position, radius: 2.25, half_width: 0.9, direction, velocity }
+    Foreign { position, radius: 2.25, half_width: 0.9, direction, velocity, height: 0.0 }
 }
 
 /// A car goes to and fro over a crossing at a speed, whatever the signals say. Returns how many began to cross before it

@@ -30,9 +30,8 @@ fn with_plaza(things: &[[(f64, f64); 2]]) -> Arc<RoadNetwork> {
         path: path.to_vec(),
         width: 3.0,
         joins,
-        level: 0,
-        covered: false,
         plaza,
+        ..Footpath::default()
     };
     network.footpaths = vec![
         way([Point2::new(55.3, 7.1), GATES[0]], [true, false], None),

@@ -217,7 +217,7 @@ proptest! {
         let mut traffic = Traffic::new(Arc::new(grid(2)), &config, Seed(6)).expect("the settings are in range");
         let [x, y, radius, half_width, ahead, aside, vx, vy] = numbers;
         let (direction, velocity) = (Vector2::new(ahead, aside), Vector2::new(vx, vy));
-        let body = Foreign { position: Point2::new(x, y), radius, half_width, direction, velocity };
+        let body = Foreign { position: Point2::new(x, y), radius, half_width, direction, velocity, height: vx };
         traffic.set_obstacles(&[body]);
         for _ in 0..20 {
             traffic.step_among(&[body, Foreign::standing(Point2::new(20.0, 0.0), radius)], dt);

@@ -67,6 +67,7 @@ fn nobody_starts_into_a_body_that_swings_round_before_it() {
         half_width: 1.2,
         direction: direction(axis),
         velocity: Vector2::zeros(),
+        height: 0.0,
     };
     let solid = Shape::cuboid(7.0, 2.4, 3.0).obb(&pose_facing(Point3::new(middle.x, middle.y, 0.0), axis));
     for step in 0..300 {
@@ -169,6 +170,7 @@ fn strangers_that_keep_no_rules_are_let_pass() {
                 half_width: 0.9,
                 direction: direction(yaw),
                 velocity: direction(yaw) * v,
+                height: 0.0,
             };
             traffic.step_among(&[stranger], 0.1);
             touched |= traffic.vehicles().any(|body| {

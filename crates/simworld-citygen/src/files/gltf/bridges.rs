@@ -8,7 +8,7 @@ use crate::City;
 use crate::decks::{Span, bridges};
 use crate::terrain::DECK;
 
-const CONCRETE: Material = material("concrete", [0.36, 0.355, 0.34], 0.9);
+pub(super) const CONCRETE: Material = material("concrete", [0.36, 0.355, 0.34], 0.9);
 /// Height of a parapet above the sidewalk and its thickness, m, as in a world.
 const PARAPET: (f64, f64) = (1.07, 0.3);
 /// Thickness of a pier along the bridge, m, and its share of the width of the deck.
@@ -53,7 +53,7 @@ pub(super) fn node(builder: &mut Builder<'_>, city: &City) -> Node {
 
 /// A beam along a span between two distances to the left of the centreline, from its top down to its foot, both above the
 /// carriageway at either end of the span, m.
-fn beam(
+pub(super) fn beam(
     builder: &mut Builder<'_>,
     mesh: &mut Mesh,
     span: &Span,

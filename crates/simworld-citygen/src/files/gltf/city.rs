@@ -8,7 +8,7 @@ use simworld_core::net::{Intersection, Lane, Road, polyline};
 use simworld_core::scene::{EntityKind, Shape};
 
 use super::mesh::{Base, Builder, Mesh};
-use super::{bridges, buildings, strips};
+use super::{bridges, buildings, footbridges, strips};
 use crate::City;
 use crate::element::Element;
 use crate::lot::GreenKind;
@@ -77,6 +77,7 @@ pub(super) fn model(city: &City) -> Model {
         ground(&mut builder, city, low, high),
         roads(&mut builder, city),
         bridges::node(&mut builder, city),
+        footbridges::node(&mut builder, city),
         sidewalks(&mut builder, city),
         strips::node(&mut builder, city),
         markings(&mut builder, city),

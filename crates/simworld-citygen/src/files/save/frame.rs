@@ -33,12 +33,13 @@ pub(super) enum Tag {
     /// As before there were sections after ways for walkers.
     End,
     Levels,
+    Steps,
     Plazas,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 16] = [
+    const ALL: [(Self, &'static str); 17] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
         (Self::Buildings, "the buildings"),
@@ -53,6 +54,7 @@ impl Tag {
         (Self::Names, "the street names"),
         (Self::Footpaths, "the ways for walkers"),
         (Self::Levels, "the ways for walkers off the ground"),
+        (Self::Steps, "the flights of steps off the ground"),
         (Self::Plazas, "the plazas"),
         (Self::End, "the end"),
     ];

@@ -1,5 +1,6 @@
 //! Ways for walkers: as they were saved before they had levels, and sections of their own for those that lie off the ground
-//! or are built over, and for plazas. Where there are none those are left out, so that the bytes are those of before.
+//! or are built over, for those of them that are steps, and for plazas. Where there are none a section is left out, so that
+//! the bytes are those of before.
 
 use std::io::Write;
 
@@ -55,6 +56,11 @@ pub(super) fn write<W: Write>(frames: &mut Writer<'_, W>, network: &RoadNetwork)
     if !levels.is_empty() {
         frames.section(Tag::Levels, &levels)?;
     }
+    let steps = ways.iter().enumerate().filter(|(_, way)| way.steps);
+    let steps: Vec<u32> = steps.map(|(index, _)| index as u32).collect();
+    if !steps.is_empty() {
+        frames.section(Tag::Steps, &steps)?;
+    }
     let mut open: Vec<Open<&Plaza>> =
         network.plazas.iter().map(|plaza| Open { plaza, ways: Vec::new() }).collect();
     for (way, path) in (0..).zip(ways) {
@@ -72,32 +78,37 @@ pub(super) fn read(sections: &Sections<'_>, count: u64) -> Result<(Vec<Footpath>
         path,
         width,
         joins,
-        level: 0,
-        covered: false,
-        plaza: None,
+        ..Footpath::default()
     });
     let mut ways: Vec<Footpath> = ways.collect();
     let levels: Vec<OffGround> =
         if sections.have(Tag::Levels) { sections.one(Tag::Levels)? } else { Vec::new() };
-    for OffGround { way: index, level, covered } in levels {
-        let way = way_of(&mut ways, Tag::Levels, index)?;
+    for OffGround { way, level, covered } in levels {
+        let way = named(&mut ways, way, Tag::Levels)?;
         (way.level, way.covered) = (level, covered);
+    }
+    let steps: Vec<u32> = if sections.have(Tag::Steps) { sections.one(Tag::Steps)? } else { Vec::new() };
+    for way in steps {
+        named(&mut ways, way, Tag::Steps)?.steps = true;
     }
     let open: Vec<Open<Plaza>> =
         if sections.have(Tag::Plazas) { sections.one(Tag::Plazas)? } else { Vec::new() };
     let mut plazas = Vec::with_capacity(open.len());
     for Open { plaza, ways: across } in open {
         for index in across {
-            way_of(&mut ways, Tag::Plazas, index)?.plaza = Some(PlazaId::from_index(plazas.len()));
+            named(&mut ways, index, Tag::Plazas)?.plaza = Some(PlazaId::from_index(plazas.len()));
         }
         plazas.push(plaza);
     }
     Ok((ways, plazas))
 }
 
-/// The way of an index that a section names.
-fn way_of(ways: &mut [Footpath], section: Tag, index: u32) -> Result<&mut Footpath, SaveError> {
-    let fault = "refers to a way that is not there";
-    let lost = SaveError::Unsound { what: section.name(), index: index as usize, fault };
+/// The way that a section names.
+fn named(ways: &mut [Footpath], index: u32, section: Tag) -> Result<&mut Footpath, SaveError> {
+    let lost = SaveError::Unsound {
+        what: section.name(),
+        index: index as usize,
+        fault: "refers to a way that is not there",
+    };
     ways.get_mut(index as usize).ok_or(lost)
 }

@@ -49,6 +49,8 @@ pub(super) struct Walk {
     pub(super) level: i8,
     /// Whether something is built over it.
     pub(super) is_covered: bool,
+    /// Whether it is a flight of steps.
+    pub(super) is_steps: bool,
 }
 
 /// A way that is a line.
@@ -223,5 +225,6 @@ fn walk_as(highway: &str, tags: &Tags<'_>) -> Option<Walk> {
         || tags.has(Key::Indoor);
     let width = tags.metres(Key::Width).unwrap_or(*usual).clamp(WIDTHS.0, WIDTHS.1);
     let is_covered = tags.has(Key::Covered) || tags.is(Key::Tunnel, "building_passage");
-    (!is_left_out).then_some(Walk { width, level: street::level(tags), is_covered })
+    let (level, is_steps) = (street::level(tags), highway == "steps");
+    (!is_left_out).then_some(Walk { width, level, is_covered, is_steps })
 }

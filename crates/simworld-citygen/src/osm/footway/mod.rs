@@ -138,7 +138,7 @@ struct Laid {
 impl Laid {
     fn add(&mut self, Piece { way, run, exits }: Piece<'_>, given_up: &BTreeSet<u32>) {
         let Run { mut path, cut } = run;
-        let Walk { width, level, is_covered } = way.walk;
+        let Walk { width, level, is_covered: covered, is_steps } = way.walk;
         let ends = [path[0], path[path.len() - 1]];
         let mut joins = [false; 2];
         for (end, exit) in exits.into_iter().enumerate() {
@@ -155,11 +155,13 @@ impl Laid {
                 // Others may end there, and share the end as it is; and what lies beyond a square is no part of it.
                 let path = vec![ends[end], door.at];
                 let joins = [false, true];
-                let link = Footpath { path, width, joins, level: exit_level, covered: false, plaza: None };
+                let link = Footpath { path, width, joins, level: exit_level, ..Footpath::default() };
                 self.put(link, way.way, None);
             }
         }
-        let path = Footpath { path, width, joins, level, covered: is_covered, plaza: None };
+        // Of steps on the ground nothing depends.
+        let steps = is_steps && level != 0;
+        let path = Footpath { path, width, joins, level, covered, steps, plaza: None };
         self.put(path, way.way, way.square);
     }
 

@@ -12,12 +12,16 @@ use crate::net::{RoadNetwork, Side, polyline};
 const CELL: f64 = 20.0;
 /// An end of a footpath that joins leads on to a sidewalk that is no farther off, m.
 const JOINS: f64 = 15.0;
+/// Where a height bends so near to a corner of its way, it bends there, m.
+const BEND: f64 = 0.01;
 
 /// A graph under construction.
 #[derive(Default)]
 struct Builder {
     waypoints: Vec<Waypoint>,
     edges: Vec<(WaypointId, WaypointEdge)>,
+    /// Of each waypoint above the ground, m; those of the last ones are left out while they are on it.
+    heights: Vec<f64>,
 }
 
 impl Builder {
@@ -37,6 +41,16 @@ impl Builder {
         self.edges.push((b, WaypointEdge { to: a, length, crossing, width }));
     }
 
+    /// Adds a waypoint so high above the ground, m.
+    fn add_at(&mut self, position: Point2, height: f64, kind: WaypointKind) -> WaypointId {
+        let waypoint = self.add(position, kind);
+        if height > 0.0 {
+            self.heights.resize(waypoint.index(), 0.0);
+            self.heights.push(height);
+        }
+        waypoint
+    }
+
     /// Adds waypoints at these places; returns them in order.
     fn add_all(&mut self, places: &[Point2], kind: WaypointKind) -> Vec<WaypointId> {
         places.iter().map(|place| self.add(*place, kind)).collect()
@@ -53,7 +67,10 @@ impl Builder {
         }
         let grid = PointGrid::new(self.waypoints.iter().map(|waypoint| waypoint.position).collect(), CELL);
         let edges = self.edges.into_iter().map(|(_, edge)| edge).collect();
-        WaypointGraph { waypoints: self.waypoints, starts, edges, grid }
+        if !self.heights.is_empty() {
+            self.heights.resize(self.waypoints.len(), 0.0);
+        }
+        WaypointGraph { waypoints: self.waypoints, starts, edges, grid, heights: self.heights }
     }
 }
 
@@ -124,8 +141,10 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
     let walks = PointGrid::new(builder.waypoints.iter().map(|waypoint| waypoint.position).collect(), CELL);
     // The waypoint at each end, and whether it leads to a sidewalk.
     let mut ends: BTreeMap<[u64; 2], (WaypointId, bool)> = BTreeMap::new();
-    for footpath in &network.footpaths {
-        let mut places = interpolated(&footpath.path, step);
+    let heights = network.footpath_heights();
+    for (index, footpath) in network.footpaths.iter().enumerate() {
+        let profile = heights.profile(index);
+        let mut places = interpolated(&with_bends(&footpath.path, profile), step);
         let kind = footpath.plaza.map_or(WaypointKind::Footpath, WaypointKind::Plaza);
         if let ([from, to], true) = (&places[..], footpath.plaza.is_some()) {
             // Those on it are known by its middle.
@@ -136,12 +155,15 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
             *place = *end;
         }
         let mut last: Option<WaypointId> = None;
+        let mut station = 0.0;
         for (rank, place) in places.iter().enumerate() {
             let is_end = rank == 0 || rank + 1 == places.len();
             let key = [place.x.to_bits(), place.y.to_bits()];
             let known = ends.get(&key).copied().filter(|_| is_end);
             let kind = if is_end { WaypointKind::Footpath } else { kind };
-            let (here, is_joined) = known.unwrap_or_else(|| (builder.add(*place, kind), false));
+            station += rank.checked_sub(1).map_or(0.0, |before| (place - places[before]).norm());
+            let (here, is_joined) = known
+                .unwrap_or_else(|| (builder.add_at(*place, heights.at(index, station), kind), false));
             if is_end {
                 let joins = !is_joined && footpath.joins[usize::from(rank > 0)];
                 ends.insert(key, (here, is_joined || joins));
@@ -158,6 +180,26 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
             last = Some(here);
         }
     }
+}
+
+/// The path with points where its height bends, so that it is straight between any two.
+fn with_bends(path: &[Point2], profile: &[(f64, f64)]) -> Vec<Point2> {
+    let mut bent = Vec::with_capacity(path.len() + profile.len());
+    let mut station = 0.0;
+    let mut bends = profile.iter().map(|(station, _)| *station).peekable();
+    for pair in path.windows(2) {
+        let piece = pair[1] - pair[0];
+        let span = piece.norm();
+        bent.push(pair[0]);
+        while let Some(bend) = bends.next_if(|bend| *bend < station + span - BEND) {
+            if bend > station + BEND {
+                bent.push(pair[0] + piece * ((bend - station) / span));
+            }
+        }
+        station += span;
+    }
+    bent.extend(path.last());
+    bent
 }
 
 /// The path moved away from the road between its ends, which stay.

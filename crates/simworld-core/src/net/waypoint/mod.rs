@@ -115,7 +115,12 @@ pub struct WaypointGraph {
     starts: Vec<u32>,
     edges: Vec<WaypointEdge>,
     grid: PointGrid,
+    /// Of each waypoint above the ground, m; none where all are on it.
+    heights: Vec<f64>,
 }
+
+/// Who is no farther from a waypoint than this may still be on the way that leads to it, m.
+const TURNING: f64 = 1.0;
 
 impl WaypointGraph {
     /// The coarse level: intersections, joined by roads in the directions in which they may be driven.
@@ -160,6 +165,44 @@ impl WaypointGraph {
     /// The way from one waypoint straight to another, if there is one.
     pub fn edge(&self, from: WaypointId, to: WaypointId) -> Option<&WaypointEdge> {
         self.edges(from).iter().find(|edge| edge.to == to)
+    }
+
+    /// Whether all of its waypoints are on the ground.
+    pub fn is_level(&self) -> bool {
+        self.heights.is_empty()
+    }
+
+    /// Height of a waypoint of this graph above the ground, m: more than nothing on footbridges, and on the stairs and ramps
+    /// that lead to them (see [`RoadNetwork::footpath_heights`]).
+    pub fn height(&self, id: WaypointId) -> f64 {
+        self.heights.get(id.index()).copied().unwrap_or(0.0)
+    }
+
+    /// Height above the ground at a place beside or on the way from one waypoint straight to another, m. Near the first it may
+    /// be that of a way that leads there, if that is nearer: who turns from one on to the next stays at their height.
+    pub fn height_between(&self, from: WaypointId, to: WaypointId, at: Point2) -> f64 {
+        if self.heights.is_empty() {
+            return 0.0;
+        }
+        let (mut nearest, mut height) = self.beside(from, to, at);
+        if (self.waypoint(from).position - at).norm_squared() <= TURNING * TURNING {
+            for before in self.edges(from).iter().map(|edge| edge.to).filter(|before| *before != to) {
+                let (distance, other) = self.beside(from, before, at);
+                if distance < nearest {
+                    (nearest, height) = (distance, other);
+                }
+            }
+        }
+        height
+    }
+
+    /// Distance from the straight way between two waypoints, m, and its height at the nearest place.
+    fn beside(&self, from: WaypointId, to: WaypointId, at: Point2) -> (f64, f64) {
+        let (a, b) = (self.waypoint(from).position, self.waypoint(to).position);
+        let along = b - a;
+        let share = ((at - a).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+        let (low, high) = (self.height(from), self.height(to));
+        ((at - a - along * share).norm(), low + (high - low) * share)
     }
 
     /// The waypoint nearest to a point, the lower id of two at the same distance; `None` in an empty graph.

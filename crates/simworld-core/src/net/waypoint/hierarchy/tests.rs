@@ -26,7 +26,7 @@ fn graph_of(count: usize, edges: &[(usize, usize, u32)]) -> WaypointGraph {
         starts.push(all.len() as u32);
     }
     let grid = PointGrid::new((0..count).map(at).collect(), 20.0);
-    WaypointGraph { waypoints, starts, edges: all, grid }
+    WaypointGraph { waypoints, starts, edges: all, grid, heights: Vec::new() }
 }
 
 /// Lengths of the shortest ways between all pairs (Floyd and Warshall 1962).
