@@ -20,6 +20,8 @@ pub(crate) struct Detectors {
     /// Vehicle-seconds and pedestrian-seconds before each group since it last showed green.
     pub(crate) waited: Vec<f64>,
     pub(crate) kerb: Vec<f64>,
+    /// Time since each group last showed green, s.
+    pub(crate) since_green: Vec<f64>,
     #[serde(skip)]
     approaching: Vec<u32>,
     #[serde(skip)]
@@ -46,6 +48,7 @@ impl Detectors {
             gap: vec![f64::INFINITY; groups],
             waited: vec![0.0; groups],
             kerb: vec![0.0; groups],
+            since_green: vec![0.0; groups],
             ..Self::default()
         }
     }
@@ -59,6 +62,7 @@ impl Detectors {
             waiting: &self.waiting,
             waited: &self.waited,
             kerb: &self.kerb,
+            since_green: &self.since_green,
         }
     }
 
@@ -88,23 +92,26 @@ impl Detectors {
         self.sum_up(aspects, dt);
     }
 
-    /// Adds up who waits before a red.
+    /// Adds up who waits before a red, and for how long there has been no green.
     fn sum_up(&mut self, aspects: &[Aspect], dt: f64) {
         for (group, aspect) in aspects.iter().enumerate() {
             let is_green = *aspect == Aspect::Green;
             let add = |sum: f64, count: u32| if is_green { 0.0 } else { sum + f64::from(count) * dt };
             self.waited[group] = add(self.waited[group], self.approaching[group]);
             self.kerb[group] = add(self.kerb[group], self.waiting[group]);
+            self.since_green[group] = add(self.since_green[group], 1);
         }
     }
 
     /// Whether a saved state is one of so many groups.
     pub(crate) fn fits(&self, groups: usize) -> bool {
-        [&self.gap, &self.waited, &self.kerb].iter().all(|of_group| of_group.len() == groups)
+        [&self.gap, &self.waited, &self.kerb, &self.since_green]
+            .iter()
+            .all(|of_group| of_group.len() == groups)
     }
 
     pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
-        for number in self.gap.iter().chain(&self.waited).chain(&self.kerb) {
+        for number in self.gap.iter().chain(&self.waited).chain(&self.kerb).chain(&self.since_green) {
             hasher.f64(*number);
         }
     }

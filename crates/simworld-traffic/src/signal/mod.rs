@@ -21,7 +21,9 @@ pub use fixed::{FixedTime, Webster, green_wave};
 pub use max_pressure::MaxPressure;
 pub use self_organizing::SelfOrganizing;
 use simworld_core::net::SignalPlan;
-pub use stage::Stage;
+#[cfg(feature = "sumo")]
+pub(crate) use stage::branching;
+pub use stage::{Branches, Exit, Stage};
 
 /// What detectors tell, by signal group: index with [`SignalGroup::index`](simworld_core::net::SignalGroup::index).
 #[derive(Clone, Copy, Debug)]
@@ -40,12 +42,14 @@ pub struct Demand<'a> {
     pub waited: &'a [f64],
     /// Time that pedestrians have stood at its kerbs since then, summed over them, s.
     pub kerb: &'a [f64],
+    /// Time since the group last showed green, s; zero while it does.
+    pub since_green: &'a [f64],
 }
 
 /// One signalised intersection at the moment of a decision.
 #[derive(Clone, Copy, Debug)]
 pub struct JunctionView<'a> {
-    /// Its plan.
+    /// Its plan, with the phases beside it that the policy brings.
     pub plan: &'a SignalPlan,
     /// Its stages, at least one.
     pub stages: &'a [Stage],
@@ -60,9 +64,9 @@ pub struct JunctionView<'a> {
 }
 
 impl JunctionView<'_> {
-    /// The stage after the current one in the order of the plan.
+    /// The stage that usually follows the current one: the next in the order of the plan, or by the first of its ways on.
     pub fn successor(&self) -> usize {
-        (self.current + 1) % self.stages.len()
+        stage::successor(self.stages, self.current)
     }
 
     /// Vehicles and people who want a stage.
@@ -118,6 +122,13 @@ pub trait SignalPolicy {
     /// nobody.
     fn watches(&self) -> bool {
         true
+    }
+
+    /// Ways on from the phases of a plan that do not merely follow one another; none, unless the policy brings some. It is asked once for
+    /// every plan, when the policy or the plans are set, and then answers with stages to which the current one has an
+    /// [exit](Stage::exits) or ways lead from there.
+    fn branches(&self, _plan: &SignalPlan) -> Option<Branches> {
+        None
     }
 
     /// For how long it would surely answer with the current stage again, s: so long it is not asked. None, unless it knows better.

@@ -3,5 +3,6 @@
 
 mod sumo_demand;
 mod sumo_networks;
+mod sumo_orders;
 mod sumo_people;
 mod sumo_programs;
