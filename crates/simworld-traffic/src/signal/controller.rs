@@ -7,7 +7,7 @@ use simworld_core::hash::StateHasher;
 use simworld_core::net::{Aspect, RoadNetwork, SignalPlan};
 
 use super::stage::{Stage, branching, stages, successor, towards};
-use super::{Branches, ByHand, Demand, FixedTime, JunctionView, SignalPolicy};
+use super::{Branches, ByHand, DelayDetector, Demand, FixedTime, JunctionView, SignalPolicy};
 
 /// Sums of steps are compared with this much tolerance, s.
 const ROUNDING: f64 = 1e-6;
@@ -88,6 +88,16 @@ impl IntersectionManager {
         (self.branched, self.stages) = plans.iter().map(of_plan).unzip();
         self.plans = plans;
         self.wake();
+    }
+
+    /// By group the detector by which the policy looks for vehicles that have lost time.
+    pub(crate) fn delay_detectors(&self) -> Vec<Option<DelayDetector>> {
+        let mut detectors = vec![None; self.aspects.len()];
+        for plan in &self.plans {
+            let detector = self.policy.delays(plan);
+            plan.groups.iter().for_each(|group| detectors[group.index()] = detector);
+        }
+        detectors
     }
 
     /// Has every controller that has stages looked at in the next step.

@@ -8,6 +8,7 @@ mod by_hand;
 mod controller;
 mod detect;
 mod fixed;
+mod losses;
 mod max_pressure;
 mod self_organizing;
 mod stage;
@@ -44,6 +45,20 @@ pub struct Demand<'a> {
     pub kerb: &'a [f64],
     /// Time since the group last showed green, s; zero while it does.
     pub since_green: &'a [f64],
+    /// How soon a vehicle that has lost time could be at the stop line at the speed limit, s, the nearest of them; infinite without one, and
+    /// where the policy [looks for none](SignalPolicy::delays).
+    pub delayed: &'a [f64],
+    /// Vehicles within the range in which it looks for them.
+    pub in_range: &'a [u32],
+}
+
+/// Looks for vehicles that have lost time before the stop lines of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DelayDetector {
+    /// It sees so far from the stop line on the lane that ends there, m.
+    pub range: f64,
+    /// Who has lost more than this within its range has lost time, s: driving at a share of the speed limit loses the rest.
+    pub least: f64,
 }
 
 /// One signalised intersection at the moment of a decision.
@@ -128,6 +143,12 @@ pub trait SignalPolicy {
     /// every plan, when the policy or the plans are set, and then answers with stages to which the current one has an
     /// [exit](Stage::exits) or ways lead from there.
     fn branches(&self, _plan: &SignalPlan) -> Option<Branches> {
+        None
+    }
+
+    /// The detector by which it looks for vehicles that have lost time; none, unless it wants one. It is asked once for every plan, when the
+    /// policy or the plans are set.
+    fn delays(&self, _plan: &SignalPlan) -> Option<DelayDetector> {
         None
     }
 

@@ -94,6 +94,7 @@ impl Traffic {
     /// Takes up the plans as they are timed now; the controllers go on where they are.
     pub(super) fn retime(&mut self) {
         self.signals.set_plans(self.state.by_hand.apply(self.plans.clone()));
+        self.state.detectors.losses.set_detectors(self.signals.delay_detectors());
     }
 
     pub(super) fn update_signals(&mut self, dt: f64) {

@@ -15,7 +15,7 @@ const GRID: &str = include_str!("data/grid.net.xml");
 fn grid(attributes: &str, phases: &[&str]) -> String {
     let begin = GRID.find(r#"<tlLogic id="A0""#).unwrap();
     let end = begin + GRID[begin..].find("</tlLogic>").unwrap();
-    let phases: String = phases.iter().map(|phase| format!("<phase {phase}/>")).collect();
+    let phases = phases.iter().fold(String::new(), |all, phase| all + &format!("<phase {phase}/>"));
     format!(r#"{}<tlLogic id="A0" programID="0" {attributes}>{phases}{}"#, &GRID[..begin], &GRID[end..])
 }
 
@@ -264,4 +264,48 @@ fn odd_choices_are_told_of() {
         .collect();
     let many: Vec<&str> = many.iter().map(String::as_str).collect();
     assert!(matches!(refused(ACTUATED, &many), SumoError::TooMuch { limit: 512, .. }));
+}
+
+/// Stages for A1 and for B0 that go on while somebody has lost time.
+fn delayed(parameters: &str) -> SumoNet {
+    let attributes =
+        format!(r#"type="delay_based" offset="0">{parameters}<phase duration="0" state="rrrrr"/"#);
+    let phases = [
+        r#"minDur="5" maxDur="25" duration="9" state="GGrrr""#,
+        r#"duration="3" state="yyrrr""#,
+        r#"minDur="5" maxDur="25" duration="9" state="rrGGr""#,
+        r#"duration="3" state="rryyr""#,
+    ];
+    let net = read(&attributes, &phases);
+    assert!(net.warnings.is_empty(), "{:?}", net.warnings);
+    assert_eq!(net.programs.actuated(), 1);
+    net
+}
+
+#[test]
+fn a_green_goes_on_for_those_who_have_lost_time() {
+    let both = |b: u32, a: u32| format!("{}{}", flow("f", "B0A0 A0A1", b), flow("g", "A1A0 A0B0", a));
+    let beyond = r#"<param key="extendMaxDur" value="true"/>"#;
+    // What SUMO 1.28.0 shows with these files in 900 s: times and seconds of green for A1 and B0.
+    for (parameters, flows, sumo) in [
+        ("", String::new(), [(17, 404), (16, 400)]),
+        ("", flow("f", "B0A0 A0A1", 500), [(25, 125), (25, 625)]),
+        ("", both(600, 400), [(57, 282), (56, 282)]),
+        ("", both(1200, 600), [(47, 235), (47, 383)]),
+        (beyond, String::new(), [(1, 900), (0, 0)]),
+        (beyond, flow("f", "B0A0 A0A1", 500), [(1, 5), (1, 892)]),
+        (beyond, both(600, 100), [(26, 130), (26, 617)]),
+    ] {
+        let shown = shown(delayed(parameters), &format!("<routes>{flows}</routes>"), 900);
+        let counts = counted(&shown);
+        for (state, (times, seconds)) in ["Grr", "rGr"].into_iter().zip(sumo) {
+            let ours = counts.get(state).copied().unwrap_or_default();
+            let is_near =
+                ours.0.abs_diff(times) <= 1 + times / 10 && ours.1.abs_diff(seconds) <= 10 + seconds / 10;
+            assert!(
+                is_near,
+                "{parameters} {flows} {state} {ours:?}, SUMO's {times} and {seconds}: {counts:?}"
+            );
+        }
+    }
 }

@@ -1,21 +1,21 @@
-//! Actuated programs: phases that last as long as vehicles keep coming, within the bounds of the file, and that are followed by whichever
-//! is wanted most.
+//! Actuated programs: phases that last as long as vehicles keep coming, or have lost time, within the bounds of the file, and that are
+//! followed by whichever is wanted most.
 //!
 //! Source: SUMO user documentation, *Simulation/Traffic Lights*, type `actuated`: from `minDur` on a phase ends when the time since the
 //! last vehicle passed a detector two seconds before the line is longer than `max-gap` on all lanes that have green, and at `maxDur` at the
 //! latest; the next of the program follows, whether or not anybody waits for it. Where a phase names several that may follow (`next`), the
 //! one with the most detectors follows that somebody passes or passed since they last had green; the phase itself goes on while its own
 //! count for more; the first that is named follows if nobody comes at all. Where SUMO has a detector a lane, here is one a signal group.
+//! Type `delay_based`: a phase goes on while a vehicle that has lost more than `minTimeLoss` within `detectorRange` before the line could pass
+//! by `maxDur`, and up to `maxDur` while nobody is within that range on a red lane, with `extendMaxDur` even longer.
 
 use std::collections::BTreeMap;
 
 use simworld_core::id::IntersectionId;
 use simworld_core::net::{Phase, SignalGroup, SignalPlan};
 
-use crate::signal::{Branches, Exit, FixedTime, JunctionView, SignalPolicy, Stage, branching};
+use crate::signal::{Branches, DelayDetector, Exit, FixedTime, JunctionView, SignalPolicy, Stage, branching};
 
-/// SUMO's `max-gap`, s, where the file says nothing.
-const LONGEST_GAP: f64 = 3.0;
 /// SUMO's `inactive-threshold`, s, where the file says nothing: after so long without green a detector counts its seconds.
 const INACTIVE: f64 = 180.0;
 /// What a detector counts that has green already.
@@ -24,7 +24,7 @@ const SERVED: f64 = 10.0;
 const AT_KERB: f64 = 100.0;
 
 /// The policy that the programs of a network ask for: [`Traffic::set_policy`](crate::Traffic::set_policy) takes a copy. Those of type
-/// `actuated` follow their vehicles, all others the clock. Junctions that were joined
+/// `actuated` and `delay_based` follow their vehicles, all others the clock. Junctions that were joined
 /// ([`TrafficConfig::join_nearer`](crate::TrafficConfig::join_nearer)) have other plans, which follow the clock.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SumoPrograms {
@@ -34,11 +34,19 @@ pub struct SumoPrograms {
 /// One actuated program.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
-    /// A gap longer than this ends a phase, s.
-    longest_gap: f64,
+    extends: Extends,
     /// Shortest and longest duration of each phase of the plan, s.
     bounds: Vec<(f64, f64)>,
     choice: Option<Choice>,
+}
+
+/// What lets a phase go on after its shortest duration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Extends {
+    /// No longer gap than this, s.
+    Gap(f64),
+    /// Whoever has lost time; and, if it says so, nobody elsewhere even beyond the longest duration.
+    Delay(DelayDetector, bool),
 }
 
 /// What may follow where something is to be chosen.
@@ -96,6 +104,13 @@ impl SignalPolicy for SumoPrograms {
         (least - junction.elapsed).max(0.0)
     }
 
+    fn delays(&self, plan: &SignalPlan) -> Option<DelayDetector> {
+        match self.actuated.get(&plan.intersection)?.extends {
+            Extends::Delay(detector, _) => Some(detector),
+            Extends::Gap(_) => None,
+        }
+    }
+
     fn branches(&self, plan: &SignalPlan) -> Option<Branches> {
         let choice = self.actuated.get(&plan.intersection)?.choice.as_ref()?;
         let is_same = |(own, phase): (&Phase, &Phase)| own.green == phase.green && own.yellow == phase.yellow;
@@ -106,8 +121,27 @@ impl SignalPolicy for SumoPrograms {
 }
 
 impl Program {
-    pub(super) fn new(longest_gap: Option<f64>, bounds: Vec<(f64, f64)>) -> Self {
-        Self { longest_gap: longest_gap.unwrap_or(LONGEST_GAP), bounds, choice: None }
+    pub(super) const fn new(extends: Extends, bounds: Vec<(f64, f64)>) -> Self {
+        Self { extends, bounds, choice: None }
+    }
+
+    /// Whether vehicles let the current stage go on, which has lasted its shortest duration.
+    fn goes_on(&self, junction: &JunctionView<'_>) -> bool {
+        let JunctionView { plan, elapsed, demand, .. } = *junction;
+        let stage = &junction.stages[junction.current];
+        let (_, longest) = self.bounds[stage.phase];
+        match self.extends {
+            Extends::Gap(gap) => {
+                elapsed < longest && stage.green.iter().any(|group| demand.gap[group.index()] <= gap)
+            }
+            Extends::Delay(_, beyond) => {
+                let soonest = stage.green.iter().map(|group| demand.delayed[group.index()]);
+                let red = plan.groups.iter().filter(|group| stage.green.binary_search(group).is_err());
+                elapsed + soonest.fold(f64::INFINITY, f64::min) <= longest
+                    || ((elapsed < longest || beyond)
+                        && red.into_iter().all(|group| demand.in_range[group.index()] == 0))
+            }
+        }
     }
 
     /// Gives it the ways on among which it is to choose. Returns a phase after which no other green comes, if there is one.
@@ -139,15 +173,12 @@ impl Program {
         if junction.elapsed < least {
             return junction.current;
         }
-        let may_go_on = junction.elapsed < longest;
-        let keeps_coming =
-            || stage.green.iter().any(|group| junction.demand.gap[group.index()] <= self.longest_gap);
         let ways = self.choice.as_ref().map(|choice| (choice, &choice.ways[junction.current]));
         match ways {
-            Some((choice, ways)) if ways.is_choice || !(may_go_on && keeps_coming()) => {
-                self.chosen(choice, ways, may_go_on, junction)
+            Some((choice, ways)) if ways.is_choice || !self.goes_on(junction) => {
+                self.chosen(choice, ways, junction.elapsed < longest, junction)
             }
-            None if !(may_go_on && keeps_coming()) => junction.successor(),
+            None if !self.goes_on(junction) => junction.successor(),
             _ => junction.current,
         }
     }
@@ -176,13 +207,14 @@ impl Program {
     /// How much a stage is wanted, in detectors.
     fn wanted(&self, choice: &Choice, stage: usize, may_go_on: bool, junction: &JunctionView<'_>) -> f64 {
         let demand = &junction.demand;
+        let Extends::Gap(longest_gap) = self.extends else { return 0.0 };
         let served = &junction.stages[junction.current].green;
         let of_group = |group: &SignalGroup| {
             let index = group.index();
             let (gap, red) = (demand.gap[index], demand.since_green[index]);
             let kerb = if demand.waiting[index] > 0 { AT_KERB } else { 0.0 };
             let detected = match () {
-                () if gap > self.longest_gap && gap >= red => 0.0,
+                () if gap > longest_gap && gap >= red => 0.0,
                 () if red > choice.inactive => red.floor(),
                 () if served.binary_search(group).is_err() => 1.0,
                 () if may_go_on => SERVED,
@@ -213,9 +245,10 @@ fn candidates(plan: &SignalPlan, stages: &[Stage], from: usize) -> Vec<(usize, V
         };
         is_done[stage] = true;
         for exit in &stages[stage].exits {
-            let by = (time + length(exit), rank);
-            if soonest[exit.stage].is_none_or(|known| by < known) {
-                soonest[exit.stage] = Some(by);
+            // Where a way on leads itself, no longer one is as good.
+            let later = time + length(exit);
+            if soonest[exit.stage].is_none_or(|known| later < known.0) {
+                soonest[exit.stage] = Some((later, rank));
             }
         }
     }

@@ -21,7 +21,7 @@ fn program() -> (Program, SignalPlan, Vec<Stage>) {
     };
     let phases = vec![green(&[0]), green(&[1]), green(&[2, 3])];
     let plan = SignalPlan { phases, ..network.signals[0].clone() };
-    let mut program = Program::new(None, vec![(10.0, 30.0); 3]);
+    let mut program = Program::new(Extends::Gap(3.0), vec![(10.0, 30.0); 3]);
     let branches = Branches { phases: Vec::new(), next: vec![vec![1, 2], vec![2, 0], vec![0, 1]] };
     let stages = branching(&plan, &branches.next);
     assert_eq!(program.choose(&plan, branches, None), None);
@@ -40,6 +40,8 @@ fn chosen(elapsed: f64, Seen(gap, since_green, waiting): Seen) -> usize {
         waited: &times,
         kerb: &times,
         since_green: &since_green,
+        delayed: &gap,
+        in_range: &none,
     };
     let junction =
         JunctionView { plan: &plan, stages: &stages, current: 0, elapsed, seconds: elapsed, demand };

@@ -108,15 +108,32 @@ pub(super) struct Logic {
     pub(super) longest_gap: Option<f64>,
     /// After so long without green, s, whoever waits is preferred, if the file says it.
     pub(super) inactive: Option<f64>,
+    /// How far one looks for who has lost time, m, how much that is, s, and whether a phase goes on beyond its longest while nobody comes
+    /// elsewhere; what the file says of it.
+    pub(super) range: Option<f64>,
+    pub(super) least_loss: Option<f64>,
+    pub(super) goes_beyond: bool,
     pub(super) phases: Vec<LogicPhase>,
 }
 
 impl Logic {
+    /// Whether its phases follow their vehicles.
+    pub(super) fn is_actuated(&self) -> bool {
+        matches!(self.kind.as_str(), "actuated" | "delay_based")
+    }
+
     /// Takes up a parameter.
     fn set(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
         let own = match element.get("key").as_deref() {
             Some("max-gap") => &mut self.longest_gap,
             Some("inactive-threshold") => &mut self.inactive,
+            Some("detectorRange" | "detector-range") => &mut self.range,
+            Some("minTimeLoss" | "minTimeloss") => &mut self.least_loss,
+            Some("extendMaxDur") => {
+                self.goes_beyond =
+                    matches!(element.get("value").as_deref(), Some("true" | "1" | "yes" | "on"));
+                return Ok(());
+            }
             _ => return Ok(()),
         };
         *own = Some(element.required_number("value")?);
@@ -319,6 +336,9 @@ fn logic(element: &Element<'_>) -> Result<Logic, SumoError> {
         offset: element.number("offset")?.unwrap_or(0.0),
         longest_gap: None,
         inactive: None,
+        range: None,
+        least_loss: None,
+        goes_beyond: false,
         phases: Vec::new(),
     })
 }

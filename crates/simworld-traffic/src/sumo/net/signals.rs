@@ -8,13 +8,19 @@ use simworld_core::net::{Aspect, Phase, SignalGroup};
 
 use super::build::Build;
 use super::order::{Order, is_stage};
-use super::programs::Program;
+use super::programs::{Extends, Program};
 use super::raw::{Logic, LogicPhase, Raw};
 use super::walk::Walk;
 use super::ways::Way;
-use crate::signal::Branches;
+use crate::signal::{Branches, DelayDetector};
 use crate::sumo::{SumoError, SumoWarning};
 
+/// SUMO's `max-gap`, s, where the file says nothing.
+const LONGEST_GAP: f64 = 3.0;
+/// SUMO's `detectorRange`, m, where the file says nothing.
+const RANGE: f64 = 100.0;
+/// SUMO's `minTimeLoss`, s, where the file says nothing.
+const LEAST_LOSS: f64 = 1.0;
 /// Phases of a program at most that chooses among them: for each, all others are looked at.
 const MOST_CHOICE: usize = 512;
 
@@ -38,7 +44,7 @@ impl Build {
                 self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
                 continue;
             }
-            if !matches!(logic.kind.as_str(), "static" | "actuated" | "") {
+            if !matches!(logic.kind.as_str(), "static" | "actuated" | "delay_based" | "") {
                 let reason = format!("is {}: here it runs by the clock until it gets a policy", logic.kind);
                 self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
             }
@@ -108,7 +114,7 @@ impl Build {
         let others = phases.split_off(order.cycle);
         let (count, offset) = (groups.len() as u32, order.offset);
         let first = self.builder.add_signals(place, count, offset, phases);
-        if logic.kind == "actuated" {
+        if logic.is_actuated() {
             let numbers: Vec<usize> = order.phases.iter().map(|phase| numbers[*phase]).collect();
             self.add_program(logic, place, (&order, &numbers), others)?;
         }
@@ -136,7 +142,7 @@ impl Build {
                 });
             }
         }
-        if logic.kind == "actuated" && logic.phases.iter().any(|phase| phase.has_conditions) {
+        if logic.is_actuated() && logic.phases.iter().any(|phase| phase.has_conditions) {
             let reason =
                 "has conditions of its own for the ends of phases: they end by gaps and bounds alone";
             self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
@@ -185,7 +191,7 @@ impl Build {
             group.0 += first;
         }
         let bounds = numbers.iter().map(|number| logic.phases[*number].bounds).collect();
-        let mut program = Program::new(logic.longest_gap, bounds);
+        let mut program = Program::new(extends(logic), bounds);
         if order.has_choice() {
             if numbers.len() > MOST_CHOICE {
                 let limit = MOST_CHOICE as u64;
@@ -202,6 +208,15 @@ impl Build {
         self.programs.add(place, program);
         Ok(())
     }
+}
+
+/// What lets a phase of a program go on.
+fn extends(logic: &Logic) -> Extends {
+    if logic.kind == "actuated" {
+        return Extends::Gap(logic.longest_gap.unwrap_or(LONGEST_GAP));
+    }
+    let (range, least) = (logic.range.unwrap_or(RANGE), logic.least_loss.unwrap_or(LEAST_LOSS));
+    Extends::Delay(DelayDetector { range, least }, logic.goes_beyond)
 }
 
 /// What a link shows in each phase.
