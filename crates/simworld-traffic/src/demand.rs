@@ -2,6 +2,7 @@
 
 mod activity;
 mod agenda;
+mod drive;
 mod itinerary;
 mod matrix;
 mod schedule;
@@ -10,6 +11,7 @@ mod timetable;
 use std::collections::{BTreeMap, VecDeque};
 
 pub use activity::{Activity, ActivityChains, DayTimes, Person, commuters};
+pub use drive::Drive;
 pub use itinerary::{Itinerary, Kerb, PersonFlow, Stage, Whereabouts};
 pub use matrix::{OdMatrix, TimeProfile, Zone};
 pub use schedule::{Departing, Schedule};

@@ -32,7 +32,7 @@ pub use demand::{
     Activity, ActivityChains, Arrivals, DayTimes, Departing, Flow, Kerbs, OdMatrix, Person, Schedule,
     TimeProfile, Trip, TripEnd, VehicleChoice, Zone, commuters,
 };
-pub use demand::{Itinerary, Kerb, PersonFlow, Stage as PersonStage, Whereabouts};
+pub use demand::{Drive as PersonDrive, Itinerary, Kerb, PersonFlow, Stage as PersonStage, Whereabouts};
 pub use dynamics::TrafficDynamics;
 pub use line::{Line, Stop};
 pub use names::NetworkNames;

@@ -30,7 +30,7 @@ use simworld_core::seed::{Seed, Stream};
 use crate::crowd::Person;
 use crate::demand::{DemandManager, Flow, Kerbs, OF_FLOW, Trip, TripEnd, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager, Plazas};
-use crate::signal::{ByHand, Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
+use crate::signal::{ByHand, Controllers, Detectors, IntersectionManager, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
 use crate::{DrivingConditions, Route, Stop, TrafficConfig, TrafficError};
 
@@ -160,12 +160,6 @@ impl Traffic {
         traffic.state.detectors = Detectors::new(groups);
         traffic.restart_signals();
         Ok(traffic)
-    }
-
-    /// Gives the signals another policy than [`FixedTime`](crate::signal::FixedTime); it decides from the next step on.
-    pub fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
-        self.signals.set_policy(policy);
-        self.state.detectors.rest();
     }
 
     /// Gives the work of each step to threads. However many they are, the result is the same to the bit; without this one

@@ -5,9 +5,11 @@ use std::collections::{BTreeMap, VecDeque};
 use simworld_core::geometry::Point2;
 use simworld_core::seed::Stream;
 
-use super::Arrivals;
 use super::agenda::{Agenda, Beat};
+use super::drive::{self, Drive};
 use super::timetable::Timetable;
+use super::{Arrivals, VehicleChoice};
+use crate::vehicle::VehicleKind;
 use crate::{Leg, Traffic, TrafficError, TripEnd};
 
 /// Who waits this near to where a vehicle halts gets in, m.
@@ -49,6 +51,20 @@ pub enum Stage {
         from: Point2,
         /// Near where it ends.
         to: Point2,
+    },
+    /// In a vehicle of one's own, called `name_0` after its driver, the next `name_1` and so on; a bicycle `name_b0`.
+    Drive(Drive),
+    /// On foot, by the lines of the schedule, or in a vehicle of one's own from the very beginning, whatever is quickest when the stage
+    /// begins: by straight ways on foot, the timetable and free roads.
+    Trip {
+        /// Near where it begins.
+        from: Point2,
+        /// Near where it ends.
+        to: Point2,
+        /// Whether one may take lines.
+        public: bool,
+        /// The drives among which one may choose.
+        drives: Vec<Drive>,
     },
 }
 
@@ -142,6 +158,10 @@ enum State {
     Walking(u32),
     /// The vehicle of this number, to a kerb.
     Riding(u32, Kerb),
+    /// The own vehicle, which has that number among those who were sent, is to depart.
+    Called(u64),
+    /// The own vehicle of this number is under way.
+    Driving(u32),
     Arrived,
     Stranded,
 }
@@ -155,6 +175,8 @@ struct Traveller {
     name: String,
     ahead: VecDeque<Stage>,
     state: State,
+    /// How many vehicles of their own have departed.
+    driven: u32,
 }
 
 /// Everybody with an itinerary.
@@ -222,9 +244,9 @@ impl Travellers {
         };
         for one in &self.under_way {
             match one.state {
-                State::Before(_) => count.waiting += 1,
+                State::Before(_) | State::Called(_) => count.waiting += 1,
                 State::Walking(_) => count.walking += 1,
-                State::Riding(..) => count.riding += 1,
+                State::Riding(..) | State::Driving(_) => count.riding += 1,
                 State::Arrived => count.arrived += 1,
                 State::Stranded => count.stranded += 1,
             }
@@ -232,16 +254,18 @@ impl Travellers {
         count
     }
 
-    /// Takes up what happened in the last step, and lets those begin their next stage who may.
-    pub(super) fn feed(&mut self, traffic: &mut Traffic, around: &Surroundings<'_>) {
+    /// Takes up what happened in the last step, and lets those begin their next stage who may. Returns the numbers of the vehicles that were
+    /// sent for them, with their names.
+    pub(super) fn feed(&mut self, traffic: &mut Traffic, around: &Surroundings<'_>) -> Vec<(u64, String)> {
         let now = traffic.seconds();
+        let mut sent = Vec::new();
         self.set_out(now + 1e-9);
         for one in &mut self.under_way {
             one.take_note(traffic, around);
             if let State::Before(since) = one.state
                 && since <= now + 1e-9
             {
-                one.begin(traffic, since, around);
+                one.begin(traffic, since, around, &mut sent);
             }
         }
         for one in self.under_way.extract_if(.., |one| matches!(one.state, State::Arrived | State::Stranded))
@@ -251,6 +275,7 @@ impl Travellers {
                 _ => self.arrived += 1,
             }
         }
+        sent
     }
 
     /// Those who are due set out.
@@ -258,7 +283,7 @@ impl Travellers {
         while let Some((_, index)) = self.due.take(now) {
             let Some(Itinerary { name, depart, stages }) = self.single[index].take() else { continue };
             let state = State::Before(depart);
-            self.under_way.push(Traveller { name, ahead: stages.into(), state });
+            self.under_way.push(Traveller { name, ahead: stages.into(), state, driven: 0 });
         }
         while let Some((time, index)) = self.next_of_flows.take(now) {
             let (name, stages, beat) = &mut self.flows[index];
@@ -267,6 +292,7 @@ impl Travellers {
                 name,
                 ahead: stages.iter().cloned().collect(),
                 state: State::Before(time),
+                driven: 0,
             });
             if let Some(next) = beat.count(time) {
                 self.next_of_flows.add(next, index);
@@ -296,14 +322,37 @@ impl Traveller {
                     State::Stranded
                 }
             }
+            State::Called(number) => {
+                let departed = traffic.admitted().find(|(_, admitted)| *admitted == Some(number));
+                departed.map_or(self.state, |(id, _)| State::Driving(id))
+            }
+            State::Driving(id) => {
+                match traffic.ended().iter().find(|trip| trip.id == id).map(|trip| trip.end) {
+                    Some(TripEnd::Arrived | TripEnd::Parked) => State::Before(now),
+                    Some(_) => State::Stranded,
+                    None => self.state,
+                }
+            }
             same => same,
         };
     }
 
     /// Begins the next stage, if one may.
-    fn begin(&mut self, traffic: &mut Traffic, since: f64, around: &Surroundings<'_>) {
-        if let Some(Stage::Journey { from, to }) = self.ahead.front() {
-            let stages = around.timetable.journey(*from, *to, since);
+    fn begin(
+        &mut self,
+        traffic: &mut Traffic,
+        since: f64,
+        around: &Surroundings<'_>,
+        sent: &mut Vec<(u64, String)>,
+    ) {
+        let found = match self.ahead.front() {
+            Some(Stage::Journey { from, to }) => Some(around.timetable.journey(*from, *to, since).1),
+            Some(Stage::Trip { from, to, public, drives }) => {
+                Some(drive::chosen(traffic, around.timetable, (*from, *to), (*public, drives), since))
+            }
+            _ => None,
+        };
+        if let Some(stages) = found {
             self.ahead.pop_front();
             for stage in stages.into_iter().rev() {
                 self.ahead.push_front(stage);
@@ -328,11 +377,29 @@ impl Traveller {
                     None => return,
                 }
             }
-            // A journey has become stages.
-            Some(Stage::Journey { .. }) => return,
+            Some(Stage::Drive(drive)) => match drive.send(traffic, since) {
+                Ok(number) => {
+                    sent.push((number, self.vehicle_name(traffic, drive.vehicle)));
+                    State::Called(number)
+                }
+                Err(_) => State::Stranded,
+            },
+            // They have become stages.
+            Some(Stage::Journey { .. } | Stage::Trip { .. }) => return,
         };
+        self.driven += u32::from(matches!(begun, State::Called(_)));
         self.ahead.pop_front();
         self.state = begun;
+    }
+
+    /// What the next vehicle of their own is called.
+    fn vehicle_name(&self, traffic: &Traffic, vehicle: VehicleChoice) -> String {
+        let kind = match vehicle {
+            VehicleChoice::Kind(kind) => Some(kind),
+            VehicleChoice::Type(row) => traffic.config().types.get(row).map(|row| row.kind),
+        };
+        let bicycle = if kind == Some(VehicleKind::Bicycle) { "b" } else { "" };
+        format!("{}_{bicycle}{}", self.name, self.driven)
     }
 }
 

@@ -250,7 +250,10 @@ impl Schedule {
         let timetable =
             self.timetable.get_or_insert_with(|| Timetable::new(traffic.network(), &self.services));
         let halting = traffic.halting().collect();
-        self.travellers.feed(traffic, &Surroundings { vehicles: &self.present, timetable, halting });
+        let around = Surroundings { vehicles: &self.present, timetable, halting };
+        for (number, name) in self.travellers.feed(traffic, &around) {
+            self.outside.insert(number, [name.clone(), name, String::new()]);
+        }
     }
 
     /// Takes note of who entered in the last step.

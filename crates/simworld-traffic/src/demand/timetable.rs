@@ -118,8 +118,8 @@ impl Timetable {
         table
     }
 
-    /// The stages of the quickest journey that begins at a time, s: walks along straight lines, rides by the timetable.
-    pub(super) fn journey(&self, from: Point2, to: Point2, at: f64) -> Vec<Stage> {
+    /// When the quickest journey ends that begins at a time, s, and its stages: walks along straight lines, rides by the timetable.
+    pub(super) fn journey(&self, from: Point2, to: Point2, at: f64) -> (f64, Vec<Stage>) {
         let afoot =
             |place: &Place| Label { time: at + walk(from, place.point), reached: Reached::OnFoot, round: 0 };
         let mut rounds: Vec<Vec<Label>> = vec![self.places.iter().map(afoot).collect()];
@@ -137,7 +137,7 @@ impl Timetable {
                 }
             }
         }
-        self.stages(&rounds, best.1, from, to)
+        (best.0, self.stages(&rounds, best.1, from, to))
     }
 
     /// How early one is everywhere with one ride more; `None` if nowhere any earlier.
@@ -205,14 +205,14 @@ impl Timetable {
 }
 
 /// A walk, where it is one.
-fn walk_here(stages: &mut Vec<Stage>, from: Point2, here: Point2) {
+pub(super) fn walk_here(stages: &mut Vec<Stage>, from: Point2, here: Point2) {
     if (here - from).norm() > HERE {
         stages.push(Stage::Walk { from, to: here });
     }
 }
 
 /// Time on foot between two points, s.
-fn walk(from: Point2, to: Point2) -> f64 {
+pub(super) fn walk(from: Point2, to: Point2) -> f64 {
     (to - from).norm() / WALKING
 }
 
@@ -237,7 +237,7 @@ fn times(network: &RoadNetwork, router: &Router, service: &Service) -> Option<Ve
 }
 
 /// The time along the outermost lane of a leg from one station to another at most, s.
-fn driven(network: &RoadNetwork, leg: Leg, from: f64, to: f64) -> Option<f64> {
+pub(super) fn driven(network: &RoadNetwork, leg: Leg, from: f64, to: f64) -> Option<f64> {
     let lane = &network.lanes[leg.lanes(network).last()?.index()];
     Some((to.min(lane.length) - from).max(0.0) / lane.speed_limit)
 }

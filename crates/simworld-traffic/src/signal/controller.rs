@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use simworld_core::hash::StateHasher;
 use simworld_core::net::{Aspect, RoadNetwork, SignalPlan};
 
-use super::stage::{Stage, stages};
-use super::{ByHand, Demand, FixedTime, JunctionView, SignalPolicy};
+use super::stage::{Stage, branching, stages, successor, towards};
+use super::{Branches, ByHand, DelayDetector, Demand, FixedTime, JunctionView, SignalPolicy};
 
 /// Sums of steps are compared with this much tolerance, s.
 const ROUNDING: f64 = 1e-6;
@@ -42,6 +42,8 @@ pub(crate) type Controllers = Vec<Controller>;
 /// All signals of a network.
 pub(crate) struct IntersectionManager {
     plans: Vec<SignalPlan>,
+    /// The plans to which the policy brings phases, with them.
+    branched: Vec<Option<SignalPlan>>,
     stages: Vec<Vec<Stage>>,
     policy: Box<dyn SignalPolicy + Send>,
     /// By plan, the time in its interval before which nothing can happen to its controller unless it is held, s: most of the memory of
@@ -54,6 +56,7 @@ impl IntersectionManager {
     pub(crate) fn new(network: &Arc<RoadNetwork>) -> Self {
         let mut manager = Self {
             plans: Vec::new(),
+            branched: Vec::new(),
             stages: Vec::new(),
             policy: Box::new(FixedTime),
             idle_until: Vec::new(),
@@ -72,9 +75,29 @@ impl IntersectionManager {
     }
 
     pub(crate) fn set_plans(&mut self, plans: Vec<SignalPlan>) {
-        self.stages = plans.iter().map(stages).collect();
+        let policy = &self.policy;
+        let of_plan = |plan: &SignalPlan| match policy.branches(plan) {
+            Some(Branches { phases, next }) => {
+                let mut plan = plan.clone();
+                plan.phases.extend(phases);
+                let stages = branching(&plan, &next);
+                (Some(plan), stages)
+            }
+            None => (None, stages(plan)),
+        };
+        (self.branched, self.stages) = plans.iter().map(of_plan).unzip();
         self.plans = plans;
         self.wake();
+    }
+
+    /// By group the detector by which the policy looks for vehicles that have lost time.
+    pub(crate) fn delay_detectors(&self) -> Vec<Option<DelayDetector>> {
+        let mut detectors = vec![None; self.aspects.len()];
+        for plan in &self.plans {
+            let detector = self.policy.delays(plan);
+            plan.groups.iter().for_each(|group| detectors[group.index()] = detector);
+        }
+        detectors
     }
 
     /// Has every controller that has stages looked at in the next step.
@@ -83,13 +106,14 @@ impl IntersectionManager {
         self.idle_until = self.stages.iter().map(wakes).collect();
     }
 
+    /// Has another policy decide; the plans are to be set anew, for it may have other ways on.
     pub(crate) fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
         self.policy = policy;
-        self.wake();
     }
 
     /// Controllers as they stand when the clock of the plans shows `seconds`.
     pub(crate) fn start(&self, seconds: f64) -> Controllers {
+        // The clock goes through the phases of the plans alone, which are the first.
         let at = |(plan, stages): (&SignalPlan, &Vec<Stage>)| {
             let Some((phase, elapsed)) = phase_at(plan, seconds) else { return Controller::default() };
             let place = |index: usize, stage: &Stage| {
@@ -98,7 +122,7 @@ impl IntersectionManager {
                 } else {
                     1 + stage.ending.iter().position(|ending| *ending == phase)?
                 };
-                let next = (index + 1) % stages.len();
+                let next = successor(stages, index);
                 Some(Controller { stage: index as u32, next: next as u32, ending: step as u32, elapsed })
             };
             stages.iter().enumerate().find_map(|(index, stage)| place(index, stage)).unwrap_or_default()
@@ -113,9 +137,21 @@ impl IntersectionManager {
             stages.is_empty()
                 || ((controller.next as usize) < stages.len()
                     && controller.elapsed.is_finite()
-                    && stage.is_some_and(|stage| controller.ending as usize <= stage.ending.len()))
+                    && stage.is_some_and(|stage| {
+                        controller.ending as usize <= stage.ending_before(controller.next as usize).len()
+                    }))
         };
         controllers.len() == self.plans.len() && controllers.iter().zip(&self.stages).all(fits)
+    }
+
+    /// Whether controllers of other plans or another policy can go on with these, and show the same.
+    pub(crate) fn goes_on(&mut self, controllers: &Controllers) -> bool {
+        let before = self.aspects.clone();
+        let fits = self.fits(controllers);
+        if fits {
+            self.show(controllers);
+        }
+        fits && self.aspects == before
     }
 
     /// Moves every controller on by `dt` s and shows what it says.
@@ -127,7 +163,7 @@ impl IntersectionManager {
         demand: Demand<'_>,
         dt: f64,
     ) {
-        let Self { plans, stages, policy, idle_until, aspects } = self;
+        let Self { plans, branched, stages, policy, idle_until, aspects } = self;
         for (number, (controller, idle_until)) in controllers.iter_mut().zip(idle_until).enumerate() {
             if *idle_until == f64::INFINITY {
                 continue; // it has no stages
@@ -137,7 +173,7 @@ impl IntersectionManager {
             if controller.elapsed < *idle_until && held.is_none() {
                 continue;
             }
-            let (plan, stages) = (&plans[number], &stages[number]);
+            let (plan, stages) = (whole(plans, branched, number), &stages[number]);
             let before = (controller.stage, controller.ending);
             let current = controller.stage as usize;
             let mut keeps = 0.0;
@@ -145,8 +181,9 @@ impl IntersectionManager {
                 let elapsed = controller.elapsed;
                 let junction = JunctionView { plan, stages, current, elapsed, seconds, demand };
                 let wish = held.unwrap_or_else(|| policy.next_stage(&junction));
-                if wish < stages.len() && wish != current {
-                    controller.next = wish as u32;
+                let is_other = wish < stages.len() && wish != current;
+                if let Some(next) = is_other.then(|| towards(stages, current, wish)).flatten() {
+                    controller.next = next as u32;
                     controller.ending = 1;
                     controller.elapsed = 0.0;
                 } else if held.is_none() {
@@ -168,8 +205,9 @@ impl IntersectionManager {
 
     /// Writes the aspects that the controllers show.
     pub(crate) fn show(&mut self, controllers: &Controllers) {
-        for ((plan, stages), controller) in self.plans.iter().zip(&self.stages).zip(controllers) {
-            controller.show(plan, stages, &mut self.aspects);
+        let Self { plans, branched, stages, aspects, .. } = self;
+        for (number, (stages, controller)) in stages.iter().zip(controllers).enumerate() {
+            controller.show(whole(plans, branched, number), stages, aspects);
         }
     }
 }
@@ -189,7 +227,7 @@ impl Controller {
         let Some(stage) = stages.get(self.stage as usize) else { return };
         let phase = match self.ending {
             0 => stage.phase,
-            step => stage.ending[step as usize - 1],
+            step => stage.ending_before(self.next as usize)[step as usize - 1],
         };
         for group in &plan.groups {
             aspects[group.index()] = plan.phases[phase].aspect(*group);
@@ -201,14 +239,17 @@ impl Controller {
         let stage = &stages[self.stage as usize];
         match self.ending {
             0 => stage.least_green,
-            step => stage.ending.get(step as usize - 1).map_or(0.0, |phase| plan.phases[*phase].duration),
+            step => {
+                let ending = stage.ending_before(self.next as usize);
+                ending.get(step as usize - 1).map_or(0.0, |phase| plan.phases[*phase].duration)
+            }
         }
     }
 
     /// Passes the intervals of an ending that are over; what is left of the time counts for the next.
     fn go_through_ending(&mut self, plan: &SignalPlan, stages: &[Stage]) {
         while self.ending > 0 {
-            let ending = &stages[self.stage as usize].ending;
+            let ending = stages[self.stage as usize].ending_before(self.next as usize);
             let Some(phase) = ending.get(self.ending as usize - 1) else {
                 self.stage = self.next;
                 self.ending = 0;
@@ -222,6 +263,11 @@ impl Controller {
             self.ending += 1;
         }
     }
+}
+
+/// A plan with the phases that the policy brings.
+fn whole<'a>(plans: &'a [SignalPlan], branched: &'a [Option<SignalPlan>], number: usize) -> &'a SignalPlan {
+    branched[number].as_ref().unwrap_or(&plans[number])
 }
 
 /// The phase that a plan's clock shows, and for how long it has; `None` for a plan without phases.

@@ -6,6 +6,7 @@ use simworld_core::id::CrossingId;
 use simworld_core::net::Aspect;
 
 use super::Demand;
+use super::losses::Losses;
 use crate::vehicle::{NONE, STANDING, Tracks, Vehicle, VehicleManager, Way};
 
 /// Video detection sees so far from the stop line, m.
@@ -20,6 +21,9 @@ pub(crate) struct Detectors {
     /// Vehicle-seconds and pedestrian-seconds before each group since it last showed green.
     pub(crate) waited: Vec<f64>,
     pub(crate) kerb: Vec<f64>,
+    /// Time since each group last showed green, s.
+    pub(crate) since_green: Vec<f64>,
+    pub(crate) losses: Losses,
     #[serde(skip)]
     approaching: Vec<u32>,
     #[serde(skip)]
@@ -46,6 +50,7 @@ impl Detectors {
             gap: vec![f64::INFINITY; groups],
             waited: vec![0.0; groups],
             kerb: vec![0.0; groups],
+            since_green: vec![0.0; groups],
             ..Self::default()
         }
     }
@@ -59,6 +64,9 @@ impl Detectors {
             waiting: &self.waiting,
             waited: &self.waited,
             kerb: &self.kerb,
+            since_green: &self.since_green,
+            delayed: &self.losses.delayed,
+            in_range: &self.losses.in_range,
         }
     }
 
@@ -72,6 +80,7 @@ impl Detectors {
         dt: f64,
     ) {
         self.rest();
+        self.losses.begin();
         for gap in &mut self.gap {
             *gap += dt;
         }
@@ -79,6 +88,7 @@ impl Detectors {
         for (lane, queue) in vehicles.queues(tracks) {
             self.look_at_lane(tracks, queue, lane, dt);
         }
+        self.losses.end();
         self.press(tracks);
         for (index, count) in waiting.iter().enumerate() {
             if let Some(group) = tracks.network.crossings[CrossingId::from_index(index).index()].signal {
@@ -88,25 +98,28 @@ impl Detectors {
         self.sum_up(aspects, dt);
     }
 
-    /// Adds up who waits before a red.
+    /// Adds up who waits before a red, and for how long there has been no green.
     fn sum_up(&mut self, aspects: &[Aspect], dt: f64) {
         for (group, aspect) in aspects.iter().enumerate() {
             let is_green = *aspect == Aspect::Green;
             let add = |sum: f64, count: u32| if is_green { 0.0 } else { sum + f64::from(count) * dt };
             self.waited[group] = add(self.waited[group], self.approaching[group]);
             self.kerb[group] = add(self.kerb[group], self.waiting[group]);
+            self.since_green[group] = add(self.since_green[group], 1);
         }
     }
 
     /// Whether a saved state is one of so many groups.
     pub(crate) fn fits(&self, groups: usize) -> bool {
-        [&self.gap, &self.waited, &self.kerb].iter().all(|of_group| of_group.len() == groups)
+        let lists = [&self.gap, &self.waited, &self.kerb, &self.since_green];
+        lists.iter().all(|of_group| of_group.len() == groups) && self.losses.is_sound()
     }
 
     pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
-        for number in self.gap.iter().chain(&self.waited).chain(&self.kerb) {
+        for number in self.gap.iter().chain(&self.waited).chain(&self.kerb).chain(&self.since_green) {
             hasher.f64(*number);
         }
+        self.losses.state_hash(hasher);
     }
 
     /// Tells of nobody.
@@ -118,6 +131,7 @@ impl Detectors {
         }
         self.pressure.clear();
         self.pressure.resize(groups, 0.0);
+        self.losses.rest(groups);
     }
 
     /// Whether it has places for what it tells.
@@ -162,6 +176,7 @@ impl Detectors {
                 self.approaching[group] += 1;
                 self.queued[group] += u32::from(vehicle.v < STANDING);
             }
+            self.losses.see(group, vehicle, (end, tracks.speed[lane as usize]), dt);
             let moved = vehicle.v * dt;
             if vehicle.s >= advance && vehicle.s - moved - vehicle.length() <= advance {
                 self.gap[group] = 0.0;

@@ -8,6 +8,7 @@ mod by_hand;
 mod controller;
 mod detect;
 mod fixed;
+mod losses;
 mod max_pressure;
 mod self_organizing;
 mod stage;
@@ -21,7 +22,9 @@ pub use fixed::{FixedTime, Webster, green_wave};
 pub use max_pressure::MaxPressure;
 pub use self_organizing::SelfOrganizing;
 use simworld_core::net::SignalPlan;
-pub use stage::Stage;
+#[cfg(feature = "sumo")]
+pub(crate) use stage::branching;
+pub use stage::{Branches, Exit, Stage};
 
 /// What detectors tell, by signal group: index with [`SignalGroup::index`](simworld_core::net::SignalGroup::index).
 #[derive(Clone, Copy, Debug)]
@@ -40,12 +43,28 @@ pub struct Demand<'a> {
     pub waited: &'a [f64],
     /// Time that pedestrians have stood at its kerbs since then, summed over them, s.
     pub kerb: &'a [f64],
+    /// Time since the group last showed green, s; zero while it does.
+    pub since_green: &'a [f64],
+    /// How soon a vehicle that has lost time could be at the stop line at the speed limit, s, the nearest of them; infinite without one, and
+    /// where the policy [looks for none](SignalPolicy::delays).
+    pub delayed: &'a [f64],
+    /// Vehicles within the range in which it looks for them.
+    pub in_range: &'a [u32],
+}
+
+/// Looks for vehicles that have lost time before the stop lines of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DelayDetector {
+    /// It sees so far from the stop line on the lane that ends there, m.
+    pub range: f64,
+    /// Who has lost more than this within its range has lost time, s: driving at a share of the speed limit loses the rest.
+    pub least: f64,
 }
 
 /// One signalised intersection at the moment of a decision.
 #[derive(Clone, Copy, Debug)]
 pub struct JunctionView<'a> {
-    /// Its plan.
+    /// Its plan, with the phases beside it that the policy brings.
     pub plan: &'a SignalPlan,
     /// Its stages, at least one.
     pub stages: &'a [Stage],
@@ -60,9 +79,9 @@ pub struct JunctionView<'a> {
 }
 
 impl JunctionView<'_> {
-    /// The stage after the current one in the order of the plan.
+    /// The stage that usually follows the current one: the next in the order of the plan, or by the first of its ways on.
     pub fn successor(&self) -> usize {
-        (self.current + 1) % self.stages.len()
+        stage::successor(self.stages, self.current)
     }
 
     /// Vehicles and people who want a stage.
@@ -118,6 +137,19 @@ pub trait SignalPolicy {
     /// nobody.
     fn watches(&self) -> bool {
         true
+    }
+
+    /// Ways on from the phases of a plan that do not merely follow one another; none, unless the policy brings some. It is asked once for
+    /// every plan, when the policy or the plans are set, and then answers with stages to which the current one has an
+    /// [exit](Stage::exits) or ways lead from there.
+    fn branches(&self, _plan: &SignalPlan) -> Option<Branches> {
+        None
+    }
+
+    /// The detector by which it looks for vehicles that have lost time; none, unless it wants one. It is asked once for every plan, when the
+    /// policy or the plans are set.
+    fn delays(&self, _plan: &SignalPlan) -> Option<DelayDetector> {
+        None
     }
 
     /// For how long it would surely answer with the current stage again, s: so long it is not asked. None, unless it knows better.

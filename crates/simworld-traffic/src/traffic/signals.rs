@@ -6,9 +6,21 @@ use simworld_core::traffic::SignalTiming;
 use super::{State, Traffic};
 use crate::TrafficError;
 use crate::parts::in_parts;
-use crate::signal::{ByHand, check_timing};
+use crate::signal::{ByHand, SignalPolicy, check_timing};
 
 impl Traffic {
+    /// Gives the signals another policy than [`FixedTime`](crate::signal::FixedTime); it decides from the next step on. If either
+    /// has [ways on](SignalPolicy::branches) of its own and some signal shows what the other has not, all begin anew where the clock
+    /// stands.
+    pub fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
+        self.signals.set_policy(policy);
+        self.retime();
+        if !self.signals.goes_on(&self.state.controllers) {
+            self.restart_signals();
+        }
+        self.state.detectors.rest();
+    }
+
     /// Gives the signals other plans, for the same groups; they begin at once, where their clocks stand now. Nobody holds them
     /// any more, and they are timed as the plans say.
     ///
@@ -82,6 +94,7 @@ impl Traffic {
     /// Takes up the plans as they are timed now; the controllers go on where they are.
     pub(super) fn retime(&mut self) {
         self.signals.set_plans(self.state.by_hand.apply(self.plans.clone()));
+        self.state.detectors.losses.set_detectors(self.signals.delay_detectors());
     }
 
     pub(super) fn update_signals(&mut self, dt: f64) {

@@ -83,7 +83,7 @@ fn buses_halt_and_people_get_in_and_out() {
     assert!(halted >= 1);
 }
 
-/// People who go along two sides of the grid, past both stops of the 7, along one side, and so that they have to drive.
+/// People who go along two sides of the grid, past both stops of the 7, along one side, and with a mode that there is not.
 const TRIPS: &str = r#"<additional>
     <busStop id="west" lane="A0B0_1" startPos="20" endPos="40"/>
     <busStop id="east" lane="C1C2_1" startPos="40" endPos="60"/>
@@ -93,14 +93,14 @@ const TRIPS: &str = r#"<additional>
     <personFlow id="far" begin="10" end="1000" number="5" period="40"><personTrip from="A0B0" to="C1C2" modes="public"/></personFlow>
     <personFlow id="afoot" begin="10" end="90" period="40"><personTrip from="A0B0" to="C1C2"/><stop lane="C1C2_0" duration="20"/></personFlow>
     <person id="near" depart="15"><personTrip from="A0B0" to="B0B1" modes="public"/></person>
-    <person id="drives" depart="20"><personTrip from="A0B0" to="A0A1" modes="car"/></person>
+    <person id="hails" depart="20"><personTrip from="A0B0" to="A0A1" modes="taxi"/></person>
 </additional>"#;
 
 #[test]
 fn trips_take_the_line_where_it_is_quicker_than_walking() {
     let demand = read(TRIPS);
     let warned: Vec<&str> = demand.warnings.iter().map(|warning| warning.id.as_str()).collect();
-    assert_eq!(warned, ["personTrip"], "who drives by himself");
+    assert_eq!(warned, ["personTrip"], "who takes a taxi");
     let (mut traffic, mut schedule, _) = start(&demand);
     let (mut rides, mut before) = (0, 0);
     for _ in 0..9000 {

@@ -4,12 +4,15 @@
 //! lanes both ways, any other edge a one-way road of its own. Lanes keep their shapes, widths, speeds and users;
 //! connections run along the internal lanes of the file, a turn in two pieces as one way. What touches and who gives
 //! way is what the file's right-of-way requests say. Signals become fixed plans with the file's offsets, one an
-//! intersection, and those that follow their vehicles a policy beside ([`SumoPrograms`]); links that always show the same aspect are one group, those of vehicles before those of people.
+//! intersection, and those that follow their vehicles a policy beside ([`SumoPrograms`]); links that always show the same aspect are one
+//! group, those of vehicles before those of people. Where phases name those that follow (`next`), a plan is the cycle of the first that
+//! are named; among several the policy lets vehicles choose, and phases that never come are left out with a warning.
 //! Lanes for people alone become sidewalks, crossings crossings.
 //!
 //! Source of the format: SUMO user documentation, *Networks/SUMO Road Networks*.
 
 mod build;
+mod order;
 mod pair;
 mod programs;
 mod raw;

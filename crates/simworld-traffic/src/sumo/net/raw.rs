@@ -9,6 +9,8 @@ use crate::sumo::xml::{self, Element, Line, Visit};
 
 /// Things of a kind that are read at most: their numbers are of 32 bits, and signals take some for each.
 const MOST: u64 = 1 << 28;
+/// The longest duration of a phase, s.
+const DAY: f64 = 86_400.0;
 /// Width of a lane that has none, m: `SUMO_const_laneWidth`.
 const LANE_WIDTH: f64 = 3.2;
 
@@ -104,7 +106,39 @@ pub(super) struct Logic {
     pub(super) offset: f64,
     /// The longest gap in which a phase goes on that follows its vehicles, s, if the file says it.
     pub(super) longest_gap: Option<f64>,
+    /// After so long without green, s, whoever waits is preferred, if the file says it.
+    pub(super) inactive: Option<f64>,
+    /// How far one looks for who has lost time, m, how much that is, s, and whether a phase goes on beyond its longest while nobody comes
+    /// elsewhere; what the file says of it.
+    pub(super) range: Option<f64>,
+    pub(super) least_loss: Option<f64>,
+    pub(super) goes_beyond: bool,
     pub(super) phases: Vec<LogicPhase>,
+}
+
+impl Logic {
+    /// Whether its phases follow their vehicles.
+    pub(super) fn is_actuated(&self) -> bool {
+        matches!(self.kind.as_str(), "actuated" | "delay_based")
+    }
+
+    /// Takes up a parameter.
+    fn set(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
+        let own = match element.get("key").as_deref() {
+            Some("max-gap") => &mut self.longest_gap,
+            Some("inactive-threshold") => &mut self.inactive,
+            Some("detectorRange" | "detector-range") => &mut self.range,
+            Some("minTimeLoss" | "minTimeloss") => &mut self.least_loss,
+            Some("extendMaxDur") => {
+                self.goes_beyond =
+                    matches!(element.get("value").as_deref(), Some("true" | "1" | "yes" | "on"));
+                return Ok(());
+            }
+            _ => return Ok(()),
+        };
+        *own = Some(element.required_number("value")?);
+        Ok(())
+    }
 }
 
 /// One phase of a program.
@@ -116,6 +150,10 @@ pub(super) struct LogicPhase {
     pub(super) bounds: (f64, f64),
     /// What each link shows, a letter each.
     pub(super) state: Vec<u8>,
+    /// The numbers of the phases that may follow; none if the next in the file does.
+    pub(super) next: Vec<usize>,
+    /// Whether the file has other conditions of its end than gaps and bounds.
+    pub(super) has_conditions: bool,
 }
 
 /// All of a file.
@@ -173,9 +211,9 @@ impl Visit for Raw {
                     push("phases", &mut logic.phases, phase(element)?)?;
                 }
             }
-            ("param", 2) if element.get("key").as_deref() == Some("max-gap") => {
+            ("param", 2) => {
                 if let (true, Some(logic)) = (self.is_in_logic, self.logics.last_mut()) {
-                    logic.longest_gap = Some(element.required_number("value")?);
+                    logic.set(element)?;
                 }
             }
             ("roundabout", 1) => self.rings.extend(element.words("edges")),
@@ -297,20 +335,31 @@ fn logic(element: &Element<'_>) -> Result<Logic, SumoError> {
         kind: element.get("type").unwrap_or_default().into_owned(),
         offset: element.number("offset")?.unwrap_or(0.0),
         longest_gap: None,
+        inactive: None,
+        range: None,
+        least_loss: None,
+        goes_beyond: false,
         phases: Vec::new(),
     })
 }
 
 fn phase(element: &Element<'_>) -> Result<LogicPhase, SumoError> {
     let time = |name: &'static str, value: f64| {
-        let is_one = (0.0..=86_400.0).contains(&value);
+        let is_one = (0.0..=DAY).contains(&value);
         if is_one { Ok(value) } else { Err(element.error(name, "is out of range: give 0 to 86 400 s")) }
     };
     let duration = time("duration", element.required_number("duration")?)?;
-    let bound = |name: &'static str| time(name, element.number(name)?.unwrap_or(duration));
-    let bounds = (bound("minDur")?, bound("maxDur")?);
+    let least = element.number("minDur")?;
+    // Who says how long it lasts at least, and no more, lets it go on while vehicles come.
+    let longest = element.number("maxDur")?.unwrap_or(if least.is_some() { DAY } else { duration });
+    let bounds = (time("minDur", least.unwrap_or(duration))?, time("maxDur", longest)?);
     if bounds.0 > bounds.1 {
         return Err(element.error("minDur", "is more than maxDur"));
     }
-    Ok(LogicPhase { duration, bounds, state: element.text("state")?.into_bytes() })
+    let number = |word: &String| word.parse::<u32>().ok().map(|number| number as usize);
+    let next: Option<Vec<usize>> = element.words("next").iter().map(number).collect();
+    let next = next.ok_or_else(|| element.error("next", "has a word that is no number of a phase"))?;
+    let conditions = ["earlyTarget", "finalTarget", "earliestEnd", "latestEnd"];
+    let has_conditions = conditions.iter().any(|name| element.get(name).is_some());
+    Ok(LogicPhase { duration, bounds, state: element.text("state")?.into_bytes(), next, has_conditions })
 }

@@ -1,15 +1,28 @@
 //! Signal programs as fixed plans: one an intersection, links with the same aspects in one group.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use simworld_core::id::IntersectionId;
 use simworld_core::net::{Aspect, Phase, SignalGroup};
 
 use super::build::Build;
+use super::order::{Order, is_stage};
+use super::programs::{Extends, Program};
 use super::raw::{Logic, LogicPhase, Raw};
 use super::walk::Walk;
 use super::ways::Way;
+use crate::signal::{Branches, DelayDetector};
 use crate::sumo::{SumoError, SumoWarning};
+
+/// SUMO's `max-gap`, s, where the file says nothing.
+const LONGEST_GAP: f64 = 3.0;
+/// SUMO's `detectorRange`, m, where the file says nothing.
+const RANGE: f64 = 100.0;
+/// SUMO's `minTimeLoss`, s, where the file says nothing.
+const LEAST_LOSS: f64 = 1.0;
+/// Phases of a program at most that chooses among them: for each, all others are looked at.
+const MOST_CHOICE: usize = 512;
 
 /// Who obeys a link; vehicles come first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,10 +44,11 @@ impl Build {
                 self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
                 continue;
             }
-            if !matches!(logic.kind.as_str(), "static" | "actuated" | "") {
+            if !matches!(logic.kind.as_str(), "static" | "actuated" | "delay_based" | "") {
                 let reason = format!("is {}: here it runs by the clock until it gets a policy", logic.kind);
                 self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
             }
+            self.check_phases(logic)?;
             logics.insert(&logic.id, logic);
         }
         let mut links: BTreeMap<(IntersectionId, &str), Vec<(Governed, usize)>> = BTreeMap::new();
@@ -94,20 +108,16 @@ impl Build {
             }
         }
         let phases = phases(logic, &groups);
-        let is_stage = |phase: &Phase| !phase.green.is_empty() && phase.yellow.is_empty();
-        if !phases.iter().any(is_stage) {
-            let reason = "never shows green alone: the junction goes without signals";
-            self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
-            return Ok(());
+        let numbers: Vec<usize> = shown(logic).map(|(number, _)| number).collect();
+        let Some(order) = self.order(logic, &numbers, &phases) else { return Ok(()) };
+        let mut phases: Vec<Phase> = order.phases.iter().map(|phase| phases[*phase].clone()).collect();
+        let others = phases.split_off(order.cycle);
+        let (count, offset) = (groups.len() as u32, order.offset);
+        let first = self.builder.add_signals(place, count, offset, phases);
+        if logic.is_actuated() {
+            let numbers: Vec<usize> = order.phases.iter().map(|phase| numbers[*phase]).collect();
+            self.add_program(logic, place, (&order, &numbers), others)?;
         }
-        if logic.kind == "actuated" {
-            let bounds = shown(logic).map(|(_, phase)| phase.bounds).collect();
-            self.programs.add(place, logic.longest_gap, bounds);
-        }
-        let cycle: f64 = phases.iter().map(|phase| phase.duration).sum();
-        // A positive offset delays the program; here it is the time into the cycle at the start.
-        let offset = (-logic.offset).rem_euclid(cycle);
-        let first = self.builder.add_signals(place, groups.len() as u32, offset, phases);
         for ((who, _), own) in lit().zip(&columns) {
             let Some(rank) = groups.iter().position(|group| *group == own) else { continue };
             let group = SignalGroup(first.0 + rank as u32);
@@ -118,6 +128,95 @@ impl Build {
         }
         Ok(())
     }
+
+    /// Checks the phases that a program names, and warns of what its phases wait for beside gaps and bounds.
+    fn check_phases(&mut self, logic: &Logic) -> Result<(), SumoError> {
+        let count = logic.phases.len();
+        for (number, phase) in logic.phases.iter().enumerate() {
+            if let Some(lost) = phase.next.iter().find(|next| **next >= count) {
+                return Err(SumoError::Attribute {
+                    element: "tlLogic".to_owned(),
+                    id: logic.id.clone(),
+                    attribute: "next",
+                    reason: format!("of phase {number} names phase {lost}: the last is {}", count - 1).into(),
+                });
+            }
+        }
+        if logic.is_actuated() && logic.phases.iter().any(|phase| phase.has_conditions) {
+            let reason =
+                "has conditions of its own for the ends of phases: they end by gaps and bounds alone";
+            self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
+        }
+        Ok(())
+    }
+
+    /// The order of the phases of a program; `None` if it never shows green alone.
+    fn order(&mut self, logic: &Logic, numbers: &[usize], phases: &[Phase]) -> Option<Order> {
+        let mut warn = |reason: Cow<'static, str>| {
+            let warning = SumoWarning::new("tlLogic", &logic.id, reason);
+            // A signal of several junctions has one program.
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        };
+        let without = "never shows green alone: the junction goes without signals";
+        if phases.is_empty() {
+            warn(without.into());
+            return None;
+        }
+        let order = Order::of(logic, numbers, phases);
+        if !order.phases[..order.cycle].iter().any(|phase| is_stage(&phases[*phase])) {
+            warn(without.into());
+            return None;
+        }
+        let lists = [(&order.unreached, "follow no other"), (&order.only_first, "come at the start alone")];
+        for (places, what) in lists.into_iter().filter(|(places, _)| !places.is_empty()) {
+            let numbers: Vec<String> = places.iter().map(|place| numbers[*place].to_string()).collect();
+            warn(format!("has phases that {what}: {} are left out", numbers.join(", ")).into());
+        }
+        Some(order)
+    }
+
+    /// Takes up the program of a plan, which was added last, that follows its vehicles.
+    fn add_program(
+        &mut self,
+        logic: &Logic,
+        place: IntersectionId,
+        (order, numbers): (&Order, &[usize]),
+        mut others: Vec<Phase>,
+    ) -> Result<(), SumoError> {
+        let Some(plan) = self.builder.network().signals.last() else { return Ok(()) };
+        let first = plan.groups.first().map_or(0, |group| group.0);
+        for group in others.iter_mut().flat_map(|phase| phase.green.iter_mut().chain(&mut phase.yellow)) {
+            group.0 += first;
+        }
+        let bounds = numbers.iter().map(|number| logic.phases[*number].bounds).collect();
+        let mut program = Program::new(extends(logic), bounds);
+        if order.has_choice() {
+            if numbers.len() > MOST_CHOICE {
+                let limit = MOST_CHOICE as u64;
+                return Err(SumoError::TooMuch { what: "phases of a signal that chooses among them", limit });
+            }
+            let branches = Branches { phases: others, next: order.next.clone() };
+            if let Some(phase) = program.choose(plan, branches, logic.inactive) {
+                let number = numbers[phase];
+                let reason =
+                    format!("goes on with phase {number} for ever: no other green is reached from it");
+                self.warnings.push(SumoWarning::new("tlLogic", &logic.id, reason));
+            }
+        }
+        self.programs.add(place, program);
+        Ok(())
+    }
+}
+
+/// What lets a phase of a program go on.
+fn extends(logic: &Logic) -> Extends {
+    if logic.kind == "actuated" {
+        return Extends::Gap(logic.longest_gap.unwrap_or(LONGEST_GAP));
+    }
+    let (range, least) = (logic.range.unwrap_or(RANGE), logic.least_loss.unwrap_or(LEAST_LOSS));
+    Extends::Delay(DelayDetector { range, least }, logic.goes_beyond)
 }
 
 /// What a link shows in each phase.

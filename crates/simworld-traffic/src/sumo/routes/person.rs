@@ -61,7 +61,7 @@ pub enum SumoStage {
         /// The lines or vehicles.
         lines: Vec<String>,
     },
-    /// However they like: on foot, and by lines if `public` says so.
+    /// However they like: on foot, by lines if `public` says so, and in vehicles of their own.
     Trip {
         /// From where; where they are, if it does not say.
         from: Option<String>,
@@ -71,6 +71,9 @@ pub enum SumoStage {
         end: Option<f64>,
         /// Whether they take whatever line is quicker than walking.
         public: bool,
+        /// The types of vehicles that they may have of their own: those of `vTypes`, then those that SUMO has for the modes `car` and
+        /// `bicycle`.
+        vehicles: Vec<String>,
     },
     /// Waiting.
     Stop(SumoStop),
@@ -137,11 +140,20 @@ impl SumoStage {
     pub(super) fn trip(element: &Element<'_>) -> Result<(Self, bool), SumoError> {
         let to = place(element, "to");
         let to = to.ok_or_else(|| element.error("to", "is missing: give an edge or a busStop"))?;
-        let modes = element.words("modes");
-        let public = modes.iter().any(|mode| mode == "public");
+        let (mut public, mut others, mut vehicles) = (false, false, element.words("vTypes"));
+        for mode in element.words("modes") {
+            match mode.as_str() {
+                "public" => public = true,
+                "car" => vehicles.push("DEFAULT_VEHTYPE".to_owned()),
+                "bicycle" => vehicles.push("DEFAULT_BIKETYPE".to_owned()),
+                // One always may.
+                "walk" => {}
+                _ => others = true,
+            }
+        }
         let from = element.get("from").map(std::borrow::Cow::into_owned);
-        let others = modes.iter().any(|mode| mode != "public");
-        Ok((Self::Trip { from, to, end: element.number("arrivalPos")?, public }, others))
+        let end = element.number("arrivalPos")?;
+        Ok((Self::Trip { from, to, end, public, vehicles }, others))
     }
 
     pub(super) fn ride(element: &Element<'_>) -> Result<Self, SumoError> {

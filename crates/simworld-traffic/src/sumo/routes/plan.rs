@@ -1,12 +1,12 @@
 //! From names of edges to a schedule.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::seed::{Seed, StreamRng};
 
 use super::{Distribution, SumoDemand, SumoStop, SumoTimes, SumoWay};
 use crate::sumo::{SumoError, SumoNet, SumoWarning};
-use crate::vehicle::VehicleKind;
+use crate::vehicle::{VehicleKind, VehicleType};
 use crate::{Departing, Flow, Itinerary, Leg, PersonFlow, Route, Router, Schedule, VehicleChoice};
 
 impl SumoDemand {
@@ -22,6 +22,8 @@ impl SumoDemand {
             net,
             router: Router::new(&net.network),
             routes: self.routes.iter().map(|(id, edges)| (id.as_str(), edges.as_slice())).collect(),
+            types: self.vehicle_types(),
+            vehicles: self.vehicles.iter().map(|vehicle| vehicle.id.as_str()).collect(),
             rng: seed.stream("traffic/sumo").rng(),
         };
         let mut schedule = Schedule::new(seed);
@@ -63,11 +65,11 @@ impl SumoDemand {
             }
         }
         for person in &self.persons {
-            let stages = self.stages(net, &person.id, &person.stages)?;
+            let stages = plan.stages(&person.id, &person.stages, &mut warnings)?;
             schedule.add_person(Itinerary { name: person.id.clone(), depart: person.depart, stages });
         }
         for flow in &self.person_flows {
-            let stages = self.stages(net, &flow.id, &flow.stages)?;
+            let stages = plan.stages(&flow.id, &flow.stages, &mut warnings)?;
             let per_hour = allowed_rate("personFlow", &flow.id, &flow.times, &mut warnings);
             let SumoTimes { begin: from, end: until, arrivals, number, .. } = flow.times;
             let people = PersonFlow { stages, per_hour, arrivals, from, until, number };
@@ -87,11 +89,15 @@ impl SumoDemand {
 }
 
 /// What is needed to find ways.
-struct Plan<'a> {
-    demand: &'a SumoDemand,
-    net: &'a SumoNet,
-    router: Router,
+pub(super) struct Plan<'a> {
+    pub(super) demand: &'a SumoDemand,
+    pub(super) net: &'a SumoNet,
+    pub(super) router: Router,
     routes: BTreeMap<&'a str, &'a [String]>,
+    /// The types of the traffic.
+    pub(super) types: Vec<VehicleType>,
+    /// The ids of vehicles.
+    pub(super) vehicles: BTreeSet<&'a str>,
     rng: StreamRng,
 }
 
@@ -105,7 +111,7 @@ impl Plan<'_> {
         distribution.choices.get(index).map(|(id, _)| id.clone())
     }
 
-    fn vehicle(&mut self, owner: &str, wanted: Option<&str>) -> Result<VehicleChoice, SumoError> {
+    pub(super) fn vehicle(&mut self, owner: &str, wanted: Option<&str>) -> Result<VehicleChoice, SumoError> {
         let Some(id) = wanted else { return Ok(VehicleKind::Car.into()) };
         let demand = self.demand;
         let drawn = demand.type_distributions.iter().find(|one| one.id == id);

@@ -227,7 +227,8 @@ impl State {
             _ => {
                 let (trip, by_others) = SumoStage::trip(element)?;
                 if by_others {
-                    let reason = "has modes without counterpart: one walks, and rides if it says public";
+                    let reason =
+                        "has modes without counterpart: one goes on foot, and by those that have one";
                     self.warn("personTrip", element, reason);
                 }
                 Ok(trip)
