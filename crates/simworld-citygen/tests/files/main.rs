@@ -9,6 +9,7 @@ mod heights_reach_the_files;
 mod maps_are_sheets;
 mod opendrive_comes_back;
 mod opendrive_is_valid;
+mod opendrive_lanes_lead_on;
 mod python_layouts_come_back;
 mod python_worlds_come_back;
 mod sumo_reads_the_roads;

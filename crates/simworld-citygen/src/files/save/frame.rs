@@ -33,13 +33,15 @@ pub(super) enum Tag {
     /// As before there were sections after ways for walkers.
     End,
     Levels,
+    Ways,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 15] = [
+    const ALL: [(Self, &'static str); 16] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
+        (Self::Ways, "the known ways over junctions"),
         (Self::Buildings, "the buildings"),
         (Self::Elements, "the street elements"),
         (Self::Roads, "the roads"),

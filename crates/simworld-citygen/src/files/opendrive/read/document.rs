@@ -7,7 +7,8 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::{CrossSection, RoadClass};
 
 use super::error::{OpenDriveError, OpenDriveWarning};
-use super::{curve, section};
+use super::lanes::{LaneKey, Lanes, Leads};
+use super::{curve, parts};
 use crate::GeoOrigin;
 
 /// Speeds that mean something, m/s.
@@ -21,9 +22,11 @@ pub(super) enum Link {
     Junction(String),
     /// A road, and whether its end (or else its beginning).
     Road(String, bool),
+    /// Another part of the same road, before or after it in the order of the file.
+    Part,
 }
 
-/// A road as it was read.
+/// A road as it was read, or the part of one that has the same lanes all along.
 #[derive(Clone, Debug)]
 pub(super) struct Road {
     pub(super) id: String,
@@ -36,6 +39,8 @@ pub(super) struct Road {
     /// Height of its beginning and end, m.
     pub(super) heights: [f64; 2],
     pub(super) section: CrossSection,
+    /// The lane of each strip of the cross-section, at its beginning and end.
+    pub(super) lanes: [Vec<LaneKey>; 2],
     pub(super) class: RoadClass,
     pub(super) speed: Option<f64>,
 }
@@ -43,8 +48,10 @@ pub(super) struct Road {
 /// All that is kept of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Roads {
-    /// Those that are driven on, in the order of the file.
+    /// Those that are driven on, in the order of the file; the parts of one follow each other.
     pub(super) all: Vec<Road>,
+    /// Which lane leads to which.
+    pub(super) leads: Leads,
     /// The junctions with signals.
     pub(super) signalised: BTreeSet<String>,
     /// Whether traffic keeps left.
@@ -76,7 +83,7 @@ pub(super) fn polynomial<'a>(
     value.filter(|value: &f64| value.is_finite())
 }
 
-fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+pub(super) fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
     node.children().find(|child| child.has_tag_name(name))
 }
 
@@ -92,7 +99,7 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
     let left = of("road").filter(keeps_left).count();
     let mut roads = Roads { keeps_left: 2 * left > of("road").count(), ..Roads::default() };
     roads.origin = child(root, "header").and_then(|header| child(header, "geoReference")).and_then(origin);
-    let mut known = BTreeSet::new();
+    let (mut known, mut lanes) = (BTreeSet::new(), Lanes::default());
     for node in of("road") {
         let Some(id) = node.attribute("id") else {
             warnings.push(OpenDriveWarning { road: None, what: "a road has no number; left out".to_owned() });
@@ -102,31 +109,44 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
             warnings.push(OpenDriveWarning::of(id, "the number is used twice; the second was left out"));
             continue;
         }
-        match road(node, id, keeps_left(&node)) {
-            Ok(road) => roads.all.push(road),
+        let number = lanes.add(node, id, keeps_left(&node));
+        match road(node, (id, number), keeps_left(&node), warnings) {
+            Ok(parts) => roads.all.extend(parts),
             // What is not driven on in a junction or beside it is no loss.
             Err("") => {}
             Err(what) => warnings.push(OpenDriveWarning::of(id, what)),
         }
     }
     for junction in of("junction") {
+        lanes.join_over(junction, warnings);
         if let Some(id) = junction.attribute("id").filter(|_| child(junction, "controller").is_some()) {
             roads.signalised.insert(id.to_owned());
         }
     }
+    roads.leads = lanes.leads(warnings);
     Ok(roads)
 }
 
-fn road(node: Node<'_, '_>, id: &str, keeps_left: bool) -> Result<Road, &'static str> {
+/// The parts of a road.
+fn road(
+    node: Node<'_, '_>,
+    (id, number_in_file): (&str, u32),
+    keeps_left: bool,
+    warnings: &mut Vec<OpenDriveWarning>,
+) -> Result<Vec<Road>, &'static str> {
     let plan_view = child(node, "planView").ok_or("has no course; left out")?;
     let line = curve::points(plan_view).ok_or("has no possible course; left out")?;
     let length = number(node, "length").unwrap_or(0.0).clamp(0.0, 1e6);
     let junction = node.attribute("junction").filter(|junction| *junction != "-1").map(str::to_owned);
     let lanes = child(node, "lanes").ok_or("has no lanes; left out")?;
     let nothing = if junction.is_some() { "" } else { "is nowhere driven on; left out" };
-    let section = section::at(lanes, length * 0.5, keeps_left).ok_or(nothing)?;
+    let parts = parts::of(lanes, length, keeps_left);
+    let last = parts.len().checked_sub(1).ok_or(nothing)?;
+    if parts.windows(2).any(|pair| !pair[1].follows) {
+        warnings.push(OpenDriveWarning::of(id, "is not driven on all along; that part was left out"));
+    }
     let links = child(node, "link");
-    let link = |name| links.and_then(|links| child(links, name)).and_then(link);
+    let linked = |name| links.and_then(|links| child(links, name)).and_then(link);
     let profile = child(node, "elevationProfile");
     let height = |s: f64| {
         let records = profile.into_iter().flat_map(|profile| profile.children());
@@ -134,26 +154,43 @@ fn road(node: Node<'_, '_>, id: &str, keeps_left: bool) -> Result<Road, &'static
         polynomial(records, "s", s).unwrap_or(0.0).clamp(-HIGHEST, HIGHEST)
     };
     let kind = child(node, "type");
-    let (forward, backward) = section.driven();
-    let class = match kind.and_then(|kind| kind.attribute("type")) {
-        Some("motorway") => RoadClass::Highway,
-        _ if forward.max(backward) > 1 => RoadClass::Arterial,
-        _ => RoadClass::Local,
+    let is_motorway = kind.and_then(|kind| kind.attribute("type")) == Some("motorway");
+    let road = |(rank, part): (usize, parts::Part)| {
+        let (forward, backward) = part.section.driven();
+        let class = match () {
+            () if is_motorway => RoadClass::Highway,
+            () if forward.max(backward) > 1 => RoadClass::Arterial,
+            () => RoadClass::Local,
+        };
+        let follows = if part.follows { Some(Link::Part) } else { None };
+        let lanes = part.lanes.map(|(section, lanes)| {
+            let key = |lane| LaneKey { road: number_in_file, section, lane };
+            lanes.into_iter().map(key).collect()
+        });
+        Road {
+            id: id.to_owned(),
+            name: node.attribute("name").unwrap_or_default().to_owned(),
+            junction: junction.clone(),
+            links: [
+                if rank == 0 { linked("predecessor") } else { follows },
+                if rank == last { linked("successor") } else { None },
+            ],
+            line: parts::slice(&line, length, (part.from, part.to)),
+            heights: [height(part.from), height(part.to)],
+            section: part.section,
+            lanes,
+            class,
+            speed: kind.and_then(|kind| child(kind, "speed")).and_then(speed),
+        }
     };
-    Ok(Road {
-        id: id.to_owned(),
-        name: node.attribute("name").unwrap_or_default().to_owned(),
-        junction,
-        links: [link("predecessor"), link("successor")],
-        line,
-        heights: [height(0.0), height(length)],
-        section,
-        class,
-        speed: kind.and_then(|kind| child(kind, "speed")).and_then(speed),
-    })
+    let mut roads: Vec<Road> = parts.into_iter().enumerate().map(road).collect();
+    for next in 1..roads.len() {
+        roads[next - 1].links[1] = roads[next].links[0].clone();
+    }
+    Ok(roads)
 }
 
-fn link(node: Node<'_, '_>) -> Option<Link> {
+pub(super) fn link(node: Node<'_, '_>) -> Option<Link> {
     let id = node.attribute("elementId")?.to_owned();
     match node.attribute("elementType")? {
         "junction" => Some(Link::Junction(id)),

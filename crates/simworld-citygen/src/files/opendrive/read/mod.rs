@@ -3,8 +3,11 @@
 mod curve;
 mod document;
 mod error;
+mod lanes;
+mod parts;
 mod plan;
 mod section;
+mod ways;
 mod web;
 
 use std::fs::File;
@@ -73,10 +76,10 @@ impl OpenDrive {
         let mut warnings = Vec::new();
         let roads = document::read(text, &mut warnings)?;
         let (keeps_left, origin) = (roads.keeps_left, roads.origin);
-        let mut web = web::web_of(roads);
+        let (mut web, leads) = web::web_of(roads);
         web.join_alike();
         plan::collapse(&mut web, &mut warnings);
-        let plan = plan::plan(&web, keeps_left, &mut warnings);
+        let plan = plan::plan(&web, keeps_left, &leads, &mut warnings);
         Ok(Self { plan, origin, warnings })
     }
 }

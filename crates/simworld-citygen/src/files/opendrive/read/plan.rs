@@ -8,6 +8,8 @@ use simworld_core::net::{Control, DrivingSide, SHORTEST_STREET, Street, StreetPl
 
 use super::document::Road;
 use super::error::OpenDriveWarning;
+use super::lanes::Leads;
+use super::ways::{self, Tip};
 use super::web::{Place, Web};
 use crate::simplify::simplified;
 
@@ -105,6 +107,8 @@ struct Piece<'a> {
     ends: [usize; 2],
     line: Vec<Point2>,
     road: &'a Road,
+    /// Whether the road begins there, and whether it ends there.
+    tips: [bool; 2],
 }
 
 /// Streets while they are gathered: nodes are those of the places and then those on streets that were cut.
@@ -120,7 +124,12 @@ struct Gathered<'a> {
 }
 
 /// The plan of all roads.
-pub(super) fn plan(web: &Web, keeps_left: bool, warnings: &mut Vec<OpenDriveWarning>) -> StreetPlan {
+pub(super) fn plan(
+    web: &Web,
+    keeps_left: bool,
+    leads: &Leads,
+    warnings: &mut Vec<OpenDriveWarning>,
+) -> StreetPlan {
     let mut gathered = Gathered {
         points: points(web),
         heights: web.places.iter().map(|place| height(web, place)).collect(),
@@ -135,6 +144,7 @@ pub(super) fn plan(web: &Web, keeps_left: bool, warnings: &mut Vec<OpenDriveWarn
     }
     let mut plan = emit(&gathered, web);
     plan.driving_side = if keeps_left { DrivingSide::Left } else { DrivingSide::Right };
+    ways::set(&mut plan, &tips(&gathered.pieces), leads, warnings);
     plan
 }
 
@@ -166,11 +176,28 @@ impl<'a> Gathered<'a> {
                 self.points.push(line[line.len() - 1]);
                 self.heights.push(start + (end - start) * share(part + 1));
             }
-            self.pieces.push(Piece { ends: [before, after], line, road });
+            let tips = [part == 0, part + 1 == parts];
+            self.pieces.push(Piece { ends: [before, after], line, road, tips });
             before = after;
         }
         Ok(())
     }
+}
+
+/// The ends of the roads that became streets.
+fn tips<'a>(pieces: &[Piece<'a>]) -> Vec<Tip<'a>> {
+    let numbered = pieces.iter().enumerate();
+    let ends = numbered.flat_map(|(street, piece)| {
+        let ends = (0..2).filter(|end| piece.tips[*end]);
+        let tip = move |end: usize| Tip {
+            street,
+            at_start: end == 0,
+            road: &piece.road.id,
+            lanes: &piece.road.lanes[end],
+        };
+        ends.map(tip)
+    });
+    ends.collect()
 }
 
 fn pair(ends: [usize; 2]) -> [usize; 2] {
@@ -189,7 +216,7 @@ fn emit(gathered: &Gathered<'_>, web: &Web) -> StreetPlan {
     let mut numbers: Vec<Option<usize>> = vec![None; points.len()];
     let mut sections: BTreeMap<String, u32> = BTreeMap::new();
     let mut names: BTreeMap<&str, u32> = BTreeMap::new();
-    for Piece { ends, line, road } in pieces {
+    for Piece { ends, line, road, .. } in pieces {
         let [from, to] = ends.map(|place| {
             *numbers[place].get_or_insert_with(|| {
                 plan.nodes.push(points[place]);
