@@ -8,6 +8,7 @@ mod glb_is_valid;
 mod heights_reach_the_files;
 mod maps_are_sheets;
 mod opendrive_comes_back;
+mod opendrive_has_heights;
 mod opendrive_is_valid;
 mod opendrive_lanes_lead_on;
 mod python_layouts_come_back;

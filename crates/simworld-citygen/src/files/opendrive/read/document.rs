@@ -7,14 +7,13 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::{CrossSection, RoadClass};
 
 use super::error::{OpenDriveError, OpenDriveWarning};
+use super::heights::{Elevation, Heights};
 use super::lanes::{LaneKey, Lanes, Leads};
 use super::{curve, parts};
 use crate::GeoOrigin;
 
 /// Speeds that mean something, m/s.
 const SPEEDS: (f64, f64) = (1.0, 70.0);
-/// Greatest height, m.
-const HIGHEST: f64 = 9000.0;
 
 /// What an end of a road is linked to.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,8 +35,8 @@ pub(super) struct Road {
     /// At its beginning and end.
     pub(super) links: [Option<Link>; 2],
     pub(super) line: Vec<Point2>,
-    /// Height of its beginning and end, m.
-    pub(super) heights: [f64; 2],
+    /// Heights along it, its beginning and its end among them, m.
+    pub(super) heights: Heights,
     pub(super) section: CrossSection,
     /// The lane of each strip of the cross-section, at its beginning and end.
     pub(super) lanes: [Vec<LaneKey>; 2],
@@ -147,12 +146,7 @@ fn road(
     }
     let links = child(node, "link");
     let linked = |name| links.and_then(|links| child(links, name)).and_then(link);
-    let profile = child(node, "elevationProfile");
-    let height = |s: f64| {
-        let records = profile.into_iter().flat_map(|profile| profile.children());
-        let records = records.filter(|record| record.has_tag_name("elevation"));
-        polynomial(records, "s", s).unwrap_or(0.0).clamp(-HIGHEST, HIGHEST)
-    };
+    let elevation = Elevation::of(child(node, "elevationProfile"));
     let kind = child(node, "type");
     let is_motorway = kind.and_then(|kind| kind.attribute("type")) == Some("motorway");
     let road = |(rank, part): (usize, parts::Part)| {
@@ -176,7 +170,7 @@ fn road(
                 if rank == last { linked("successor") } else { None },
             ],
             line: parts::slice(&line, length, (part.from, part.to)),
-            heights: [height(part.from), height(part.to)],
+            heights: elevation.between((part.from, part.to), parts::scale(&line, length)),
             section: part.section,
             lanes,
             class,
@@ -185,7 +179,8 @@ fn road(
     };
     let mut roads: Vec<Road> = parts.into_iter().enumerate().map(road).collect();
     for next in 1..roads.len() {
-        roads[next - 1].links[1] = roads[next].links[0].clone();
+        let goes_on = roads[next].links[0] == Some(Link::Part);
+        roads[next - 1].links[1] = goes_on.then_some(Link::Part);
     }
     Ok(roads)
 }

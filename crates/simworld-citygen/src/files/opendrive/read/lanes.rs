@@ -251,7 +251,9 @@ impl Lanes {
     fn join_beside(&self, leads: &mut Leads) {
         let mut entered: BTreeMap<LaneKey, Vec<LaneKey>> = BTreeMap::new();
         for (from, to) in leads.iter() {
-            to.iter().for_each(|to| entered.entry(*to).or_default().push(*from));
+            for to in to {
+                entered.entry(*to).or_default().push(*from);
+            }
         }
         let mut more: Vec<(LaneKey, LaneKey)> = Vec::new();
         for (key, _) in self.every().filter(|(_, lane)| lane.is_driven) {

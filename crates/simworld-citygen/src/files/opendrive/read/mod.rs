@@ -3,8 +3,11 @@
 mod curve;
 mod document;
 mod error;
+mod heights;
 mod lanes;
+mod over;
 mod parts;
+mod pieces;
 mod plan;
 mod section;
 mod ways;

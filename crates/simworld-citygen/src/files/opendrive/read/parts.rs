@@ -99,12 +99,17 @@ fn add(parts: &mut Vec<Part>, mut part: Part) {
     parts.push(part);
 }
 
+/// How long the course of a road is beside the length that it is said to have: points lie on the curve, and chords between
+/// them are a little shorter.
+pub(super) fn scale(line: &[Point2], length: f64) -> f64 {
+    if length > 0.0 { polyline::length(line) / length } else { 1.0 }
+}
+
 /// The course of a part: what lies between two places along a road of some length, m.
 pub(super) fn slice(line: &[Point2], length: f64, (from, to): (f64, f64)) -> Vec<Point2> {
     if from <= 0.0 && to >= length {
         return line.to_vec();
     }
-    // Points lie on the curve, and chords between them are a little shorter.
-    let scale = polyline::length(line) / length;
+    let scale = scale(line, length);
     polyline::slice(line, from * scale, to * scale)
 }

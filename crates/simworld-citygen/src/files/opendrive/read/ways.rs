@@ -82,9 +82,9 @@ fn ranked(section: &CrossSection, side: DrivingSide) -> [Vec<usize>; 2] {
         _ => true,
     };
     if is_usual {
-        against.reverse()
+        against.reverse();
     } else {
-        along.reverse()
+        along.reverse();
     }
     [along, against]
 }

@@ -8,7 +8,7 @@ use simworld_core::net::polyline;
 
 use super::document::{Link, Road, Roads};
 use super::lanes::Leads;
-use super::section;
+use super::{heights, section};
 
 /// Ends without a link that lie nearer to each other than this meet, m.
 const TOUCHING: f64 = 1.0;
@@ -180,7 +180,9 @@ impl Web {
         if !is_alike && lengths[0].min(lengths[1]) >= SHORT {
             return;
         }
-        let heights = [a.heights[0], b.heights[1]];
+        // Both ends may lie a little apart.
+        let gap = (b.line[0] - a.line[a.line.len() - 1]).norm();
+        let heights = heights::joined(&a.heights, &b.heights, lengths[0] + gap);
         let (mut kept, other) = if lengths[0] >= lengths[1] { (a.clone(), &b) } else { (b.clone(), &a) };
         if kept.name.is_empty() {
             kept.name.clone_from(&other.name);
@@ -202,11 +204,10 @@ impl Web {
 
 /// A road seen from its other end.
 fn reversed(road: &Road) -> Road {
-    let [first, last] = road.heights;
     let lanes = |end: usize| road.lanes[end].iter().rev().copied().collect();
     Road {
         line: polyline::reversed(&road.line),
-        heights: [last, first],
+        heights: heights::reversed(&road.heights, polyline::length(&road.line)),
         section: section::mirrored(&road.section),
         lanes: [lanes(1), lanes(0)],
         ..road.clone()
