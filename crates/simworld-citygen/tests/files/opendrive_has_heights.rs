@@ -141,3 +141,44 @@ fn bridges_of_a_city_come_back() {
         assert!((was - is).abs() < 0.06, "{was} became {is} at {at}");
     }
 }
+
+#[test]
+fn damaged_lanes_links_and_heights_are_survived() {
+    let lane = |id: i32| {
+        format!(
+            "<lane id='{id}' type='driving'><link><successor id='{}'/></link>\
+                 <width sOffset='0' a='3.2' b='0' c='0' d='0'/></lane>",
+            id - 1
+        )
+    };
+    let opens = format!("<laneSection s='60'><right>{}{}</right></laneSection></lanes>", lane(-1), lane(-2));
+    let text = [
+        road(1, (0.0, 0.0, 0.0), 300.0, CREST).replace("</lanes>", &opens),
+        road(2, (150.0, -100.0, NORTH), 200.0, "<elevation s='0' a='2' b='0' c='0' d='0'/>"),
+        road(3, (0.0, 40.0, 0.1), 250.0, CREST).replace("junction='-1'", "junction='9'"),
+        road(4, (0.0, 60.0, -0.4), 250.0, "").replace("</lanes>", &opens),
+        "<junction id='9'><connection id='0' incomingRoad='1' connectingRoad='3' contactPoint='start'>\
+         <laneLink from='-1' to='-1'/></connection><connection id='1' incomingRoad='2' connectingRoad='4' \
+         contactPoint='end'><laneLink from='1' to='-2'/></connection></junction>"
+            .to_owned(),
+    ]
+    .concat();
+    let text = format!("<OpenDRIVE>{text}</OpenDRIVE>");
+    let digits: Vec<usize> =
+        text.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()).map(|(at, _)| at).collect();
+    let mut draws = Seed(6).stream("test/damage").rng();
+    let mut bridges = 0;
+    for _ in 0..150 {
+        let mut damaged = text.clone().into_bytes();
+        for _ in 0..5 {
+            damaged[digits[draws.below(digits.len())]] = b'0' + draws.below(10) as u8;
+        }
+        let Ok(read) = OpenDrive::from_xml(&String::from_utf8(damaged).unwrap()) else { continue };
+        assert_eq!(read.plan.validate(), Ok(()));
+        bridges += lengths(&read, 1).len();
+        if !read.plan.streets.is_empty() {
+            built(&read);
+        }
+    }
+    assert!(bridges > 100, "{bridges}");
+}

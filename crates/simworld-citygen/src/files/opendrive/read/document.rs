@@ -95,8 +95,7 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
     }
     let of = |name: &'static str| root.children().filter(move |child| child.has_tag_name(name));
     let keeps_left = |road: &Node<'_, '_>| road.attribute("rule") == Some("LHT");
-    let left = of("road").filter(keeps_left).count();
-    let mut roads = Roads { keeps_left: 2 * left > of("road").count(), ..Roads::default() };
+    let mut roads = Roads::default();
     roads.origin = child(root, "header").and_then(|header| child(header, "geoReference")).and_then(origin);
     let (mut known, mut lanes) = (BTreeSet::new(), Lanes::default());
     for node in of("road") {
@@ -122,6 +121,7 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
             roads.signalised.insert(id.to_owned());
         }
     }
+    roads.keeps_left = lanes.keep_left();
     roads.leads = lanes.leads(warnings);
     Ok(roads)
 }

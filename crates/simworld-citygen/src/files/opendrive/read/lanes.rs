@@ -97,6 +97,22 @@ impl Lanes {
         self.roads.len() as u32 - 1
     }
 
+    /// Whether traffic keeps left: as most of the roads with lanes both ways do, for on others either rule may be told; or as
+    /// most roads, if there are none.
+    pub(super) fn keep_left(&self) -> bool {
+        let is_two_way = |road: &&FileRoad| {
+            let first = road.sections.first().into_iter().flatten();
+            let driven = first.filter(|(_, lane)| lane.is_driven).map(|(lane, _)| *lane > 0);
+            let [left, right] =
+                driven.fold([false; 2], |[left, right], is_left| [left || is_left, right || !is_left]);
+            left && right && !road.is_in_junction
+        };
+        let most =
+            |roads: &[&FileRoad]| 2 * roads.iter().filter(|road| road.keeps_left).count() > roads.len();
+        let two_way: Vec<&FileRoad> = self.roads.iter().filter(is_two_way).collect();
+        if two_way.is_empty() { most(&self.roads.iter().collect::<Vec<_>>()) } else { most(&two_way) }
+    }
+
     fn lane(&self, key: LaneKey) -> Option<&FileLane> {
         self.roads.get(key.road as usize)?.sections.get(key.section as usize)?.get(&key.lane)
     }

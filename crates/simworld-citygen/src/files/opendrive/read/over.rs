@@ -259,6 +259,14 @@ fn meet(pieces: &[Piece<'_>], a: &Straight, b: &Straight) -> Option<Crossing> {
         let is_common = pieces[b.piece].ends.contains(&node);
         is_common && (ends(&pieces[a.piece])[end] - at).norm() < 1.0
     });
+    // What is drawn on to a node may lie across others that end there.
+    let is_drawn = |it: &Straight, station: f64| {
+        let own = pieces[it.piece].own;
+        !(own.0..=own.1).contains(&station)
+    };
+    if is_drawn(a, stations[0]) || is_drawn(b, stations[1]) {
+        return None;
+    }
     // A loop this small is a kink.
     if is_at_common || (is_own && (stations[0] - stations[1]).abs() < 4.0 * SHORTEST) {
         return None;

@@ -18,6 +18,8 @@ pub(super) struct Piece<'a> {
     pub(super) line: Vec<Point2>,
     /// Heights between its ends.
     pub(super) heights: Heights,
+    /// Between which stations it lies as the road does, and not drawn on to a node, m.
+    pub(super) own: (f64, f64),
     pub(super) level: i8,
     pub(super) road: &'a Road,
     /// Whether the road begins there, and whether it ends there.
@@ -67,6 +69,7 @@ impl<'a> Gathered<'a> {
                 ends: [before, after],
                 line,
                 heights: kept.map(|(at, height)| (at - from, *height)).collect(),
+                own: (piece.own.0 - from, piece.own.1 - from),
                 level: piece.level,
                 road: piece.road,
                 tips: [rank == 0 && piece.tips[0], is_last && piece.tips[1]],

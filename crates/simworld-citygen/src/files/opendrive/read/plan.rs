@@ -149,7 +149,12 @@ impl<'a> Gathered<'a> {
         self.joined.insert(pair(ends));
         let heights =
             heights::on_the_way(&road.heights, (&road.line, &line), ends.map(|end| self.heights[end]));
-        let piece = Piece { ends, line, heights, level: 0, road, tips: [true; 2] };
+        let gap = |end: usize| {
+            let own = if end == 0 { road.line.first() } else { road.line.last() };
+            own.map_or(0.0, |own| (own - self.points[ends[end]]).norm())
+        };
+        let own = (gap(0), length - gap(1));
+        let piece = Piece { ends, line, heights, own, level: 0, road, tips: [true; 2] };
         let stations: Vec<f64> = (1..parts).map(|part| length * f64::from(part) / f64::from(parts)).collect();
         let cut = self.cut(piece, &stations);
         self.pieces.extend(cut);

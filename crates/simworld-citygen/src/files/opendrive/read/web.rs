@@ -79,7 +79,15 @@ pub(super) fn web_of(roads: Roads) -> (Web, Leads) {
         }
     }
     join_touching(&outer, &mut meeting);
-    let mut labels: Vec<Option<usize>> = vec![None; 2 * outer.len() + junctions.len()];
+    let signals: Vec<bool> = junctions.iter().map(|id| roads.signalised.contains(*id)).collect();
+    let (places, ends) = places(outer.len(), &signals, &meeting);
+    (Web { roads: outer.into_iter().zip(ends).map(Some).collect(), places }, roads.leads)
+}
+
+/// The places where the ends of so many roads meet, and those of each road. `signals` says which junctions have them: in
+/// `meeting` they come after the ends of roads.
+fn places(roads: usize, signals: &[bool], meeting: &UnionFind<usize>) -> (Vec<Place>, Vec<[usize; 2]>) {
+    let mut labels: Vec<Option<usize>> = vec![None; 2 * roads + signals.len()];
     let mut places: Vec<Place> = Vec::new();
     let mut label = |key: usize, places: &mut Vec<Place>| {
         *labels[meeting.find(key)].get_or_insert_with(|| {
@@ -87,19 +95,19 @@ pub(super) fn web_of(roads: Roads) -> (Web, Leads) {
             places.len() - 1
         })
     };
-    for (index, id) in junctions.iter().enumerate() {
-        let place = label(2 * outer.len() + index, &mut places);
+    for (index, has_signals) in signals.iter().enumerate() {
+        let place = label(2 * roads + index, &mut places);
         places[place].is_junction = true;
-        places[place].has_signals |= roads.signalised.contains(*id);
+        places[place].has_signals |= has_signals;
     }
     let ends: Vec<[usize; 2]> =
-        (0..outer.len()).map(|road| [0, 1].map(|end| label(2 * road + end, &mut places))).collect();
+        (0..roads).map(|road| [0, 1].map(|end| label(2 * road + end, &mut places))).collect();
     for (road, ends) in ends.iter().enumerate() {
         for (end, place) in ends.iter().enumerate() {
             places[*place].members.push((road, end));
         }
     }
-    (Web { roads: outer.into_iter().zip(ends).map(Some).collect(), places }, roads.leads)
+    (places, ends)
 }
 
 /// Ends without a link meet where they touch.
