@@ -171,11 +171,7 @@ fn end_of(footpath: &Footpath, end: usize) -> Option<(Point2, Vector2)> {
 }
 
 /// Piers where the deck is high, but none in the way of those who drive or walk below.
-fn piers(
-    network: &RoadNetwork,
-    (way, heights): (usize, &FootpathHeights),
-    ground: &Ground<'_>,
-) -> Vec<Pier> {
+fn piers(network: &RoadNetwork, (way, heights): (usize, &FootpathHeights), ground: &Ground<'_>) -> Vec<Pier> {
     let footpath = &network.footpaths[way];
     let length = polyline::length(&footpath.path);
     let is_free = |at: Point2| {

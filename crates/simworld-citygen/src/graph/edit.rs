@@ -206,9 +206,11 @@ impl Edit<'_> {
         first.via.retain(|point| (point - at).norm() > LEAST_PIECE);
         second.via.retain(|point| (point - at).norm() > LEAST_PIECE);
         (first.to, second.from) = (node as usize, node as usize);
-        // Arrows are before the ends that were.
+        // Arrows, and ways that are known, are at the ends that were.
         first.turns.forward.clear();
+        first.turns.forward_ways.clear();
         second.turns.backward.clear();
+        second.turns.backward_ways.clear();
         // Room to turn is at a dead end, and heights on the way stay where they are.
         (first.turning[1], second.turning[0]) = (0.0, 0.0);
         (first.hammerhead[1], second.hammerhead[0]) = (false, false);

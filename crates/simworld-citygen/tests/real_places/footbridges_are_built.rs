@@ -164,7 +164,10 @@ fn real_ones_clear_what_they_cross() {
                 }
             }
         }
-        println!("{file}: {} ways leave the ground; level, ramps, stairs, steeper: {lengths:.0?} m", heights.raised().count());
+        println!(
+            "{file}: {} ways leave the ground; level, ramps, stairs, steeper: {lengths:.0?} m",
+            heights.raised().count()
+        );
         println!("{over} places over carriageways, {} too low: {:?}", low.len(), &low[..low.len().min(20)]);
         assert!(over > 50 && low.is_empty(), "{file}: {low:?}");
     }

@@ -7,6 +7,7 @@ mod footbridges_and_subways;
 mod footbridges_are_built;
 mod hostile_extracts_are_survived;
 mod junctions_of_real_places_are_sound;
+mod lanes_come_back_from_opendrive;
 #[cfg(feature = "osm")]
 mod osm_common;
 mod real_places_become_cities;

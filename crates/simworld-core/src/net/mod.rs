@@ -43,7 +43,7 @@ pub use plaza::Plaza;
 pub use repair::{NetworkPatch, PatchError, PlanChange};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
-pub use turn_lanes::{TurnLanes, TurnSet};
+pub use turn_lanes::{LaneWays, TurnLanes, TurnSet};
 pub use turning::{CAR_TURNING, LORRY_TURNING, TurningRoom};
 #[cfg(feature = "hierarchy")]
 pub use waypoint::RouteHierarchy;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Control, CrossSection, NetworkError, RoadClass, Turn, TurnLanes, TurnSet};
+use super::{Control, CrossSection, NetworkError, RoadClass, Turn, TurnLanes};
 use crate::geometry::Point2;
 use crate::rare::Rare;
 
@@ -28,7 +28,7 @@ pub struct Street {
     pub name: Option<u32>,
     /// Its speed limit, m/s; that of its class if there is none.
     pub speed_limit: Option<f64>,
-    /// The arrows on its lanes.
+    /// The arrows on its lanes, and where each of them leads, where that is known.
     pub turns: Rare<TurnLanes>,
     /// Whether it is a part of the ring of a roundabout, where those in the ring go first.
     pub roundabout: bool,
@@ -245,15 +245,8 @@ impl StreetPlan {
         if let Some(limit) = street.speed_limit.filter(|limit| !(1.0..=70.0).contains(limit)) {
             return Err(format!("has a speed limit of {limit} m/s: give 1 to 70 m/s"));
         }
-        let driven = self.section(street).driven();
-        for (arrows, lanes) in [(&street.turns.forward, driven.0), (&street.turns.backward, driven.1)] {
-            if !(arrows.is_empty() || arrows.len() == lanes && arrows.iter().copied().all(TurnSet::is_known))
-            {
-                return Err(format!(
-                    "has {} arrows on {lanes} lanes: give one a lane, or none",
-                    arrows.len()
-                ));
-            }
+        if let Some(fault) = street.turns.fault(self.section(street).driven()) {
+            return Err(fault);
         }
         let is_possible =
             |(station, height): &(f64, f64)| (0.0..=1e7).contains(station) && (-1e4..=1e4).contains(height);

@@ -61,24 +61,68 @@ impl TurnSet {
     }
 }
 
+/// The ways from the lanes of a street into one of the others at a junction, where a source of roads knows them lane by
+/// lane. They go before arrows and before the rules by which a junction is laid out else.
+///
+/// The other street is told by the direction in which it leaves: that stays true when streets get other numbers, and a
+/// street that an edit adds is none of those that are known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LaneWays {
+    /// Direction in which the other street leaves the junction, radians: that one is meant which leaves nearest to it, if
+    /// one does within 0.2.
+    pub heading: f64,
+    /// Which lane leads to which lane of that street, ascending; both are counted from the middle outwards, as in
+    /// [`Road::forward`](super::Road::forward). None if nobody may go there.
+    pub lanes: Vec<(u8, u8)>,
+}
+
 /// The arrows on the driven lanes of a street, for each of its two directions from left to right as drivers see them;
-/// an empty list has none.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+/// an empty list has none. And where each lane leads, where that is known.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TurnLanes {
     /// On the lanes along the centreline, before its end.
     pub forward: Vec<TurnSet>,
     /// On the lanes against it, before its beginning.
     pub backward: Vec<TurnSet>,
+    /// The ways from the lanes along the centreline at its end, one entry for each street whose ways are known.
+    #[serde(default)]
+    pub forward_ways: Vec<LaneWays>,
+    /// The ways from the lanes against it at its beginning.
+    #[serde(default)]
+    pub backward_ways: Vec<LaneWays>,
 }
 
 impl Blank for TurnLanes {
-    const BLANK: &'static Self = &Self { forward: Vec::new(), backward: Vec::new() };
+    const BLANK: &'static Self = &Self {
+        forward: Vec::new(),
+        backward: Vec::new(),
+        forward_ways: Vec::new(),
+        backward_ways: Vec::new(),
+    };
 }
 
 impl TurnLanes {
     /// Whether there are none at all.
     pub fn is_empty(&self) -> bool {
-        self.forward.is_empty() && self.backward.is_empty()
+        self == Self::BLANK
+    }
+
+    /// What cannot be about them on a street of so many lanes each way, in words.
+    pub(super) fn fault(&self, (forward, backward): (usize, usize)) -> Option<String> {
+        let of_sides =
+            [(&self.forward, &self.forward_ways, forward), (&self.backward, &self.backward_ways, backward)];
+        of_sides.into_iter().find_map(|(arrows, ways, lanes)| {
+            let is_known = arrows.len() == lanes && arrows.iter().copied().all(TurnSet::is_known);
+            if !arrows.is_empty() && !is_known {
+                return Some(format!("has {} arrows on {lanes} lanes: give one a lane, or none", arrows.len()));
+            }
+            let is_possible = |ways: &LaneWays| {
+                let are_there = ways.lanes.iter().all(|(from, _)| usize::from(*from) < lanes);
+                ways.heading.abs() <= 10.0 && are_there && ways.lanes.is_sorted_by(|a, b| a < b)
+            };
+            let fault = "has impossible ways from its lanes: give a direction, and ascending pairs of lanes that are there";
+            (!ways.iter().all(is_possible)).then(|| fault.to_owned())
+        })
     }
 }
 

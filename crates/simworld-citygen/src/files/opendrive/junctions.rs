@@ -27,9 +27,10 @@ impl<'a> Roads<'a> {
             let lane = self.layouts[road.index()].of_lane(&self.network.roads[road.index()], connection.from);
             writeln!(
                 out,
-                r#"<connection id="{rank}" incomingRoad="{}" connectingRoad="{}" contactPoint="start"><laneLink from="{lane}" to="-1"/></connection>"#,
+                r#"<connection id="{rank}" incomingRoad="{}" connectingRoad="{}" contactPoint="start"><laneLink from="{lane}" to="{}"/></connection>"#,
                 road.0,
-                self.connecting(id.index())
+                self.connecting(id.index()),
+                self.layouts[road.index()].rule.along().1
             )?;
         }
         // Of two that meet, the one that gives way has low priority; each pair of connecting roads once.

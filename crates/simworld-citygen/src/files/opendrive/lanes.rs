@@ -22,6 +22,14 @@ impl Rule {
         }
     }
 
+    /// The side on which lanes go along the centreline, and the number of the first of them.
+    pub(super) const fn along(self) -> (&'static str, i32) {
+        match self {
+            Self::Right => ("right", -1),
+            Self::Left => ("left", 1),
+        }
+    }
+
     /// Where lanes go along the centreline.
     const fn forward_is_right(self) -> bool {
         matches!(self, Self::Right)

@@ -4,7 +4,7 @@
 //! straight pieces joined by arcs; its lanes are the strips of its cross-section, parking, verges and sidewalks
 //! included, about the line between its two directions. An intersection is a junction with a connecting road, one
 //! cubic (`paramPoly3`), for each connection. Traffic lights stand at the stop lines, with a controller for each group
-//! that shows the same. All is level.
+//! that shows the same. Heights are those of the network, straight between the places where they bend.
 //!
 //! Source: ASAM OpenDRIVE 1.7.0, chapters 7 to 14. A city that lies somewhere on Earth has a `geoReference`, a
 //! transverse Mercator projection about its origin, which departs from the city's own plane by less than its own error.

@@ -3,8 +3,10 @@
 use std::io::{self, Write};
 
 use simworld_core::geometry::{Point2, direction as direction_of};
-use simworld_core::id::LaneId;
-use simworld_core::net::{CrossSection, Lane, LaneDirection, Road, RoadClass, RoadNetwork, polyline};
+use simworld_core::id::{LaneId, RoadId};
+use simworld_core::net::{
+    Connection, CrossSection, Lane, LaneDirection, Road, RoadClass, RoadNetwork, polyline,
+};
 use simworld_core::ops::wrap_angle;
 
 use super::lanes::strip_of;
@@ -90,12 +92,13 @@ impl Roads<'_> {
         let path = geometry::moved(&connection.path, [start.0, end.0]);
         let line = geometry::cubics(&path, (start.1, end.1));
         let length = geometry::length(&line);
-        let rule = self.layouts[from.road.index()].rule.as_str();
+        let rule = self.layouts[from.road.index()].rule;
         writeln!(
             out,
-            r#"<road name="" length="{length:.6}" id="{}" junction="{}" rule="{rule}">"#,
+            r#"<road name="" length="{length:.6}" id="{}" junction="{}" rule="{}">"#,
             self.connecting(index),
-            self.junction_number(connection.intersection.index())
+            self.junction_number(connection.intersection.index()),
+            rule.as_str()
         )?;
         let contact = |along: bool| if along { ("end", "start") } else { ("start", "end") };
         let goes_along = |lane: LaneId| {
@@ -112,20 +115,38 @@ impl Roads<'_> {
         let heights = elevation::between(network, connection);
         elevation::write(&[(0.0, heights[0]), (1.0, heights[1])], length, out)?;
         let kind = if from.is_driven() { "driving" } else { "biking" };
-        // One lane on the right of its left edge, about the path; its width goes from one lane's to the other's.
+        self.connecting_lane(connection, kind, length, out)?;
+        writeln!(out, "</road>")
+    }
+
+    /// One lane beside its inner edge, about the path, on the side that goes along; its width goes from one lane's to the
+    /// other's.
+    fn connecting_lane(
+        &self,
+        connection: &Connection,
+        kind: &str,
+        length: f64,
+        out: &mut impl Write,
+    ) -> io::Result<()> {
+        let network = self.network;
+        let [from, to] = [connection.from, connection.to].map(|id| &network.lanes[id.index()]);
         let slope = (to.width - from.width) / length.max(1e-6);
-        let number = |lane, road: simworld_core::id::RoadId| {
-            self.layouts[road.index()].of_lane(&network.roads[road.index()], lane)
-        };
-        writeln!(
-            out,
-            r#"<lanes><laneOffset s="0" a="{:.6}" b="{:.9}" c="0" d="0"/><laneSection s="0"><center><lane id="0" type="none" level="false"/></center><right><lane id="-1" type="{kind}" level="false"><link><predecessor id="{}"/><successor id="{}"/></link><width sOffset="0" a="{:.6}" b="{slope:.9}" c="0" d="0"/></lane></right></laneSection></lanes>"#,
-            from.width * 0.5,
-            slope * 0.5,
+        let number =
+            |lane, road: RoadId| self.layouts[road.index()].of_lane(&network.roads[road.index()], lane);
+        let (side, own) = self.layouts[from.road.index()].rule.along();
+        let lane = format!(
+            r#"<{side}><lane id="{own}" type="{kind}" level="false"><link><predecessor id="{}"/><successor id="{}"/></link><width sOffset="0" a="{:.6}" b="{slope:.9}" c="0" d="0"/></lane></{side}>"#,
             number(connection.from, from.road),
             number(connection.to, to.road),
             from.width
-        )?;
-        writeln!(out, "</road>")
+        );
+        let (left, right) = if own > 0 { (lane.as_str(), "") } else { ("", lane.as_str()) };
+        let inner = -0.5 * f64::from(own);
+        writeln!(
+            out,
+            r#"<lanes><laneOffset s="0" a="{:.6}" b="{:.9}" c="0" d="0"/><laneSection s="0">{left}<center><lane id="0" type="none" level="false"/></center>{right}</laneSection></lanes>"#,
+            from.width * inner,
+            slope * inner
+        )
     }
 }

@@ -6,7 +6,9 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, CrossingId, RoadId};
-use simworld_core::net::{self, Control, CrossSection, DrivingSide, RoadClass, TurnLanes, TurningCircle};
+use simworld_core::net::{
+    self, Control, CrossSection, DrivingSide, RoadClass, TurnLanes, TurnSet, TurningCircle,
+};
 
 use crate::Provenance;
 
@@ -55,7 +57,7 @@ struct Street {
     section: u32,
     name: Option<u32>,
     speed_limit: Option<f64>,
-    turns: TurnLanes,
+    turns: (Vec<TurnSet>, Vec<TurnSet>),
     roundabout: bool,
     level: i8,
     turning: [f64; 2],
@@ -119,13 +121,14 @@ impl From<Plan> for net::StreetPlan {
 
 impl From<Street> for net::Street {
     fn from(old: Street) -> Self {
+        let (forward, backward) = old.turns;
         Self {
             via: old.via,
             class: old.class,
             section: old.section,
             name: old.name,
             speed_limit: old.speed_limit,
-            turns: old.turns.into(),
+            turns: TurnLanes { forward, backward, ..TurnLanes::default() }.into(),
             roundabout: old.roundabout,
             level: old.level,
             turning: old.turning,

@@ -35,13 +35,15 @@ pub(super) enum Tag {
     Levels,
     Steps,
     Plazas,
+    Ways,
 }
 
 impl Tag {
     /// In the order in which they stand in a file.
-    const ALL: [(Self, &'static str); 17] = [
+    const ALL: [(Self, &'static str); 18] = [
         (Self::Head, "the head"),
         (Self::Plan, "the street plan"),
+        (Self::Ways, "the known ways over junctions"),
         (Self::Buildings, "the buildings"),
         (Self::Elements, "the street elements"),
         (Self::Roads, "the roads"),

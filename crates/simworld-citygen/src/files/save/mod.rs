@@ -3,7 +3,8 @@
 //! Saved is what a city is made of: configuration, plan, buildings, elements, ways for walkers, and the road network too,
 //! although it follows from the plan: to read it is several times faster than to derive it, and a city stays what it was
 //! when a later version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame
-//! are little-endian. A section for ways for walkers off the open ground is there only where a city has some.
+//! are little-endian. Sections for ways for walkers off the open ground, and for ways over junctions that are known
+//! lane by lane, are there only where a city has some.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -17,6 +18,7 @@
 mod before;
 mod check;
 mod frame;
+mod plan;
 mod source;
 mod walks;
 
@@ -194,7 +196,7 @@ impl City {
         };
         let mut frames = frame::Writer::begin(writer)?;
         frames.section(Tag::Head, &head)?;
-        frames.section(Tag::Plan, &self.plan)?;
+        plan::write(&mut frames, &self.plan)?;
         frames.list(Tag::Buildings, &self.buildings)?;
         frames.list(Tag::Elements, &self.elements)?;
         let network = &self.network;
@@ -288,7 +290,7 @@ fn read_things(
     let plan: StreetPlan = if sections.are_of_before() {
         sections.one::<before::Plan>(Tag::Plan)?.into()
     } else {
-        sections.one(Tag::Plan)?
+        plan::read(sections)?
     };
     plan.validate()?;
     let buildings = sections.list(Tag::Buildings, counts.buildings)?;

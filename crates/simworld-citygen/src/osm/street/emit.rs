@@ -74,7 +74,7 @@ fn turns(web: &Web, edge: &Edge) -> TurnLanes {
     let at = |end: usize, lanes: u8| {
         if web.degree(edge.ends[end]) > 2 { edge.turns[end].on_lanes(usize::from(lanes)) } else { Vec::new() }
     };
-    TurnLanes { forward: at(1, forward), backward: at(0, backward) }
+    TurnLanes { forward: at(1, forward), backward: at(0, backward), ..TurnLanes::default() }
 }
 
 fn pair(ends: [u32; 2]) -> (usize, usize) {

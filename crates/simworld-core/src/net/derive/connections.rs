@@ -8,11 +8,11 @@ use super::legs::{Leg, Legs};
 use super::near_side::Search;
 use super::trace::{Strip, Trace, Traces};
 use super::workers::{self, PART, Workers};
-use super::{cycles, hammerhead, kerbs, near_side};
+use super::{cycles, hammerhead, kerbs, near_side, ways};
 use crate::geometry::Point2;
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
-    Connection, Control, Few, Intersection, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan,
+    Connection, Control, Few, Intersection, LaneWays, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan,
     StreetPlan, Turn, TurnSet, polyline,
 };
 use crate::ops::wrap_angle;
@@ -162,7 +162,7 @@ fn is_inner(network: &RoadNetwork, leg: &Leg) -> bool {
 }
 
 /// Lanes that arrive over a leg, and lanes that leave over it, from the middle outwards.
-fn arriving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
+pub(super) fn arriving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
     let road = &network.roads[leg.street];
     if leg.at_start { &road.backward } else { &road.forward }
 }
@@ -182,10 +182,10 @@ fn set_movements(
 ) {
     let from = arriving(network, leg);
     found.clear();
-    add_ways_on(network, plan, legs, leg, arrows(plan, leg), found);
+    add_ways_on(network, plan, legs, leg, (arrows(plan, leg), ways::of(plan, leg)), found);
     // Arrows that no street answers are a mistake: better without them than back.
     if found.is_empty() {
-        add_ways_on(network, plan, legs, leg, &[], found);
+        add_ways_on(network, plan, legs, leg, (&[], &[]), found);
     }
     if found.is_empty() {
         lane_to_lane(from, leaving(network, leg), Turn::UTurn, found);
@@ -199,18 +199,21 @@ fn set_movements(
     found.sort_by_key(|(from, ..)| *from);
 }
 
-/// Adds the ways from the lanes of a leg over a junction that arrows allow.
+/// Adds the ways from the lanes of a leg over a junction: those that are known, and to other streets those that arrows allow.
 fn add_ways_on(
     network: &RoadNetwork,
     plan: &StreetPlan,
     legs: &[Leg],
     leg: &Leg,
-    arrows: &[TurnSet],
+    (arrows, known): (&[TurnSet], &[LaneWays]),
     found: &mut Vec<(LaneId, LaneId, Turn)>,
 ) {
     let from = arriving(network, leg);
     for other in legs.iter().filter(|other| other.street != leg.street) {
         let turn = turn_between(plan, leg, other);
+        if ways::add(network, known, legs, (leg, other, turn), found) {
+            continue;
+        }
         let to = leaving(network, other);
         // Where only two roads meet, all lanes follow the bend.
         if legs.len() == 2 {

@@ -5,7 +5,7 @@ use super::StreetPlan;
 use crate::geometry::{Point2, heading};
 use crate::id::RoadId;
 use crate::net::{
-    DrivingSide, Intersection, Road, RoadNetwork, Side, Street, Turn, TurnLanes, TurnSet, polyline,
+    DrivingSide, Intersection, LaneWays, Road, RoadNetwork, Side, Street, Turn, TurnLanes, TurnSet, polyline,
 };
 
 fn flip(point: &mut Point2) {
@@ -33,8 +33,18 @@ pub(super) fn plan(plan: &StreetPlan) -> StreetPlan {
 
 fn mirror_turns(street: &mut Street) {
     let mirrored = |turns: &[TurnSet]| turns.iter().rev().map(|turn| turn.mirrored()).collect();
-    let TurnLanes { forward, backward } = &*street.turns;
-    street.turns = TurnLanes { forward: mirrored(forward), backward: mirrored(backward) }.into();
+    // Lanes are counted from the middle, where a mirror changes nothing.
+    let ways = |ways: &[LaneWays]| {
+        ways.iter().map(|ways| LaneWays { heading: -ways.heading, ..ways.clone() }).collect()
+    };
+    let TurnLanes { forward, backward, forward_ways, backward_ways } = &*street.turns;
+    street.turns = TurnLanes {
+        forward: mirrored(forward),
+        backward: mirrored(backward),
+        forward_ways: ways(forward_ways),
+        backward_ways: ways(backward_ways),
+    }
+    .into();
 }
 
 /// The network of a mirrored plan, as it is.

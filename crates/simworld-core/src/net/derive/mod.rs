@@ -19,6 +19,7 @@ mod shape;
 mod signals;
 mod trace;
 mod walkways;
+mod ways;
 mod workers;
 
 use serde::{Deserialize, Serialize};

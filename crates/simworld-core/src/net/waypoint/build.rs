@@ -162,8 +162,8 @@ fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
             let known = ends.get(&key).copied().filter(|_| is_end);
             let kind = if is_end { WaypointKind::Footpath } else { kind };
             station += rank.checked_sub(1).map_or(0.0, |before| (place - places[before]).norm());
-            let (here, is_joined) = known
-                .unwrap_or_else(|| (builder.add_at(*place, heights.at(index, station), kind), false));
+            let (here, is_joined) =
+                known.unwrap_or_else(|| (builder.add_at(*place, heights.at(index, station), kind), false));
             if is_end {
                 let joins = !is_joined && footpath.joins[usize::from(rank > 0)];
                 ends.insert(key, (here, is_joined || joins));

@@ -7,13 +7,13 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::{CrossSection, RoadClass};
 
 use super::error::{OpenDriveError, OpenDriveWarning};
-use super::{curve, section};
+use super::heights::{Elevation, Heights};
+use super::lanes::{LaneKey, Lanes, Leads};
+use super::{curve, parts};
 use crate::GeoOrigin;
 
 /// Speeds that mean something, m/s.
 const SPEEDS: (f64, f64) = (1.0, 70.0);
-/// Greatest height, m.
-const HIGHEST: f64 = 9000.0;
 
 /// What an end of a road is linked to.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +21,11 @@ pub(super) enum Link {
     Junction(String),
     /// A road, and whether its end (or else its beginning).
     Road(String, bool),
+    /// Another part of the same road, before or after it in the order of the file.
+    Part,
 }
 
-/// A road as it was read.
+/// A road as it was read, or the part of one that has the same lanes all along.
 #[derive(Clone, Debug)]
 pub(super) struct Road {
     pub(super) id: String,
@@ -33,9 +35,11 @@ pub(super) struct Road {
     /// At its beginning and end.
     pub(super) links: [Option<Link>; 2],
     pub(super) line: Vec<Point2>,
-    /// Height of its beginning and end, m.
-    pub(super) heights: [f64; 2],
+    /// Heights along it, its beginning and its end among them, m.
+    pub(super) heights: Heights,
     pub(super) section: CrossSection,
+    /// The lane of each strip of the cross-section, at its beginning and end.
+    pub(super) lanes: [Vec<LaneKey>; 2],
     pub(super) class: RoadClass,
     pub(super) speed: Option<f64>,
 }
@@ -43,8 +47,10 @@ pub(super) struct Road {
 /// All that is kept of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Roads {
-    /// Those that are driven on, in the order of the file.
+    /// Those that are driven on, in the order of the file; the parts of one follow each other.
     pub(super) all: Vec<Road>,
+    /// Which lane leads to which.
+    pub(super) leads: Leads,
     /// The junctions with signals.
     pub(super) signalised: BTreeSet<String>,
     /// Whether traffic keeps left.
@@ -76,7 +82,7 @@ pub(super) fn polynomial<'a>(
     value.filter(|value: &f64| value.is_finite())
 }
 
-fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+pub(super) fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
     node.children().find(|child| child.has_tag_name(name))
 }
 
@@ -89,10 +95,9 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
     }
     let of = |name: &'static str| root.children().filter(move |child| child.has_tag_name(name));
     let keeps_left = |road: &Node<'_, '_>| road.attribute("rule") == Some("LHT");
-    let left = of("road").filter(keeps_left).count();
-    let mut roads = Roads { keeps_left: 2 * left > of("road").count(), ..Roads::default() };
+    let mut roads = Roads::default();
     roads.origin = child(root, "header").and_then(|header| child(header, "geoReference")).and_then(origin);
-    let mut known = BTreeSet::new();
+    let (mut known, mut lanes) = (BTreeSet::new(), Lanes::default());
     for node in of("road") {
         let Some(id) = node.attribute("id") else {
             warnings.push(OpenDriveWarning { road: None, what: "a road has no number; left out".to_owned() });
@@ -102,58 +107,85 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
             warnings.push(OpenDriveWarning::of(id, "the number is used twice; the second was left out"));
             continue;
         }
-        match road(node, id, keeps_left(&node)) {
-            Ok(road) => roads.all.push(road),
+        let number = lanes.add(node, id, keeps_left(&node));
+        match road(node, (id, number), keeps_left(&node), warnings) {
+            Ok(parts) => roads.all.extend(parts),
             // What is not driven on in a junction or beside it is no loss.
             Err("") => {}
             Err(what) => warnings.push(OpenDriveWarning::of(id, what)),
         }
     }
     for junction in of("junction") {
+        lanes.join_over(junction, warnings);
         if let Some(id) = junction.attribute("id").filter(|_| child(junction, "controller").is_some()) {
             roads.signalised.insert(id.to_owned());
         }
     }
+    roads.keeps_left = lanes.keep_left();
+    roads.leads = lanes.leads(warnings);
     Ok(roads)
 }
 
-fn road(node: Node<'_, '_>, id: &str, keeps_left: bool) -> Result<Road, &'static str> {
+/// The parts of a road.
+fn road(
+    node: Node<'_, '_>,
+    (id, number_in_file): (&str, u32),
+    keeps_left: bool,
+    warnings: &mut Vec<OpenDriveWarning>,
+) -> Result<Vec<Road>, &'static str> {
     let plan_view = child(node, "planView").ok_or("has no course; left out")?;
     let line = curve::points(plan_view).ok_or("has no possible course; left out")?;
     let length = number(node, "length").unwrap_or(0.0).clamp(0.0, 1e6);
     let junction = node.attribute("junction").filter(|junction| *junction != "-1").map(str::to_owned);
     let lanes = child(node, "lanes").ok_or("has no lanes; left out")?;
     let nothing = if junction.is_some() { "" } else { "is nowhere driven on; left out" };
-    let section = section::at(lanes, length * 0.5, keeps_left).ok_or(nothing)?;
+    let parts = parts::of(lanes, length, keeps_left);
+    let last = parts.len().checked_sub(1).ok_or(nothing)?;
+    if parts.windows(2).any(|pair| !pair[1].follows) {
+        warnings.push(OpenDriveWarning::of(id, "is not driven on all along; that part was left out"));
+    }
     let links = child(node, "link");
-    let link = |name| links.and_then(|links| child(links, name)).and_then(link);
-    let profile = child(node, "elevationProfile");
-    let height = |s: f64| {
-        let records = profile.into_iter().flat_map(|profile| profile.children());
-        let records = records.filter(|record| record.has_tag_name("elevation"));
-        polynomial(records, "s", s).unwrap_or(0.0).clamp(-HIGHEST, HIGHEST)
-    };
+    let linked = |name| links.and_then(|links| child(links, name)).and_then(link);
+    let elevation = Elevation::of(child(node, "elevationProfile"));
     let kind = child(node, "type");
-    let (forward, backward) = section.driven();
-    let class = match kind.and_then(|kind| kind.attribute("type")) {
-        Some("motorway") => RoadClass::Highway,
-        _ if forward.max(backward) > 1 => RoadClass::Arterial,
-        _ => RoadClass::Local,
+    let is_motorway = kind.and_then(|kind| kind.attribute("type")) == Some("motorway");
+    let road = |(rank, part): (usize, parts::Part)| {
+        let (forward, backward) = part.section.driven();
+        let class = match () {
+            () if is_motorway => RoadClass::Highway,
+            () if forward.max(backward) > 1 => RoadClass::Arterial,
+            () => RoadClass::Local,
+        };
+        let follows = if part.follows { Some(Link::Part) } else { None };
+        let lanes = part.lanes.map(|(section, lanes)| {
+            let key = |lane| LaneKey { road: number_in_file, section, lane };
+            lanes.into_iter().map(key).collect()
+        });
+        Road {
+            id: id.to_owned(),
+            name: node.attribute("name").unwrap_or_default().to_owned(),
+            junction: junction.clone(),
+            links: [
+                if rank == 0 { linked("predecessor") } else { follows },
+                if rank == last { linked("successor") } else { None },
+            ],
+            line: parts::slice(&line, length, (part.from, part.to)),
+            heights: elevation.between((part.from, part.to), parts::scale(&line, length)),
+            section: part.section,
+            lanes,
+            class,
+            speed: kind.and_then(|kind| child(kind, "speed")).and_then(speed),
+        }
     };
-    Ok(Road {
-        id: id.to_owned(),
-        name: node.attribute("name").unwrap_or_default().to_owned(),
-        junction,
-        links: [link("predecessor"), link("successor")],
-        line,
-        heights: [height(0.0), height(length)],
-        section,
-        class,
-        speed: kind.and_then(|kind| child(kind, "speed")).and_then(speed),
-    })
+    let mut roads: Vec<Road> = parts.into_iter().enumerate().map(road).collect();
+    for next in 1..roads.len() {
+        let goes_on = roads[next].links[0] == Some(Link::Part);
+        roads[next - 1].links[1] = goes_on.then_some(Link::Part);
+    }
+    Ok(roads)
 }
 
-fn link(node: Node<'_, '_>) -> Option<Link> {
+pub(super) fn link(node: Node<'_, '_>) -> Option<Link> {
     let id = node.attribute("elementId")?.to_owned();
     match node.attribute("elementType")? {
         "junction" => Some(Link::Junction(id)),

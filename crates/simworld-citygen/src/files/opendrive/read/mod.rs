@@ -3,8 +3,14 @@
 mod curve;
 mod document;
 mod error;
+mod heights;
+mod lanes;
+mod over;
+mod parts;
+mod pieces;
 mod plan;
 mod section;
+mod ways;
 mod web;
 
 use std::fs::File;
@@ -22,11 +28,19 @@ const MOST_BYTES: u64 = 256 << 20;
 
 /// The roads of an OpenDRIVE file, versions 1.4 to 1.8, as a plan of streets.
 ///
-/// Reference lines of lines, arcs, spirals and both kinds of cubics are followed within 0.2 m. The cross-section of a
-/// street is that of the middle of its road. Junctions become one node each, where the lines of their roads meet; the
-/// roads within them are left to the derivation, which makes its own. Roads that follow each other alike become one
-/// street. Signals stand at junctions with controllers. Heights are those of the ends of roads. Objects, road marks,
-/// superelevation and the shape across are not read, and bridges lie at level 0.
+/// Reference lines of lines, arcs, spirals and both kinds of cubics are followed within 0.2 m, elevation profiles within
+/// 0.05 m. Roads that follow each other alike become one street; one whose lanes change along it becomes several, but what
+/// is shorter than 30 m goes with its neighbour. The cross-section of a street is that of the middle of the longest section
+/// of its lanes. Junctions become one node each, where the lines of their roads meet.
+///
+/// Lanes lead where the file links them, over connecting roads, direct junctions and roads too short for a street; the
+/// paths themselves are those of the derivation. A lane that begins or ends along a road is entered from the one beside it
+/// or leads where that one does. Where the file links nothing, and for bicycles, the derivation has its rules; nobody turns
+/// back at a junction. Signals stand at junctions with controllers.
+///
+/// Of roads that cross without a junction the one that is 2 m higher or more passes over the other on a bridge, a street of
+/// its own; of two at the same height the later one does, is raised, and is told. Objects (bridges and tunnels among them),
+/// road marks, superelevation and the shape across are not read.
 ///
 /// ```
 /// use simworld_citygen::files::opendrive::OpenDrive;
@@ -73,10 +87,10 @@ impl OpenDrive {
         let mut warnings = Vec::new();
         let roads = document::read(text, &mut warnings)?;
         let (keeps_left, origin) = (roads.keeps_left, roads.origin);
-        let mut web = web::web_of(roads);
+        let (mut web, leads) = web::web_of(roads);
         web.join_alike();
         plan::collapse(&mut web, &mut warnings);
-        let plan = plan::plan(&web, keeps_left, &mut warnings);
+        let plan = plan::plan(&web, keeps_left, &leads, &mut warnings);
         Ok(Self { plan, origin, warnings })
     }
 }

@@ -8,7 +8,11 @@ use simworld_core::net::{Control, DrivingSide, SHORTEST_STREET, Street, StreetPl
 
 use super::document::Road;
 use super::error::OpenDriveWarning;
+use super::lanes::Leads;
+use super::pieces::{Gathered, Piece};
+use super::ways::{self, Tip};
 use super::web::{Place, Web};
+use super::{heights, over};
 use crate::simplify::simplified;
 
 /// The shortest street that stays, m; a little more than a plan asks for, against rounding.
@@ -100,27 +104,13 @@ fn course(road: &Road, ends: [usize; 2], points: &[Point2]) -> Vec<Point2> {
     simplified(&line, TOLERANCE)
 }
 
-/// A street, and the road that it was.
-struct Piece<'a> {
-    ends: [usize; 2],
-    line: Vec<Point2>,
-    road: &'a Road,
-}
-
-/// Streets while they are gathered: nodes are those of the places and then those on streets that were cut.
-struct Gathered<'a> {
-    points: Vec<Point2>,
-    /// Heights of the nodes, m.
-    heights: Vec<f64>,
-    pieces: Vec<Piece<'a>>,
-    /// Places that a street joins already.
-    joined: BTreeSet<[usize; 2]>,
-    /// The number of streets at each place.
-    degrees: Vec<usize>,
-}
-
 /// The plan of all roads.
-pub(super) fn plan(web: &Web, keeps_left: bool, warnings: &mut Vec<OpenDriveWarning>) -> StreetPlan {
+pub(super) fn plan(
+    web: &Web,
+    keeps_left: bool,
+    leads: &Leads,
+    warnings: &mut Vec<OpenDriveWarning>,
+) -> StreetPlan {
     let mut gathered = Gathered {
         points: points(web),
         heights: web.places.iter().map(|place| height(web, place)).collect(),
@@ -133,8 +123,10 @@ pub(super) fn plan(web: &Web, keeps_left: bool, warnings: &mut Vec<OpenDriveWarn
             warnings.push(OpenDriveWarning::of(&road.id, what));
         }
     }
+    over::part_levels(&mut gathered, warnings);
     let mut plan = emit(&gathered, web);
     plan.driving_side = if keeps_left { DrivingSide::Left } else { DrivingSide::Right };
+    ways::set(&mut plan, &tips(&gathered.pieces), leads, warnings);
     plan
 }
 
@@ -155,22 +147,35 @@ impl<'a> Gathered<'a> {
             self.degrees[end] += 1;
         }
         self.joined.insert(pair(ends));
-        let [start, end] = ends.map(|place| self.heights[place]);
-        let mut before = ends[0];
-        for part in 0..parts {
-            let share = |part: u32| f64::from(part) / f64::from(parts);
-            let line = polyline::slice(&line, length * share(part), length * share(part + 1));
-            let mut after = ends[1];
-            if part + 1 < parts {
-                after = self.points.len();
-                self.points.push(line[line.len() - 1]);
-                self.heights.push(start + (end - start) * share(part + 1));
-            }
-            self.pieces.push(Piece { ends: [before, after], line, road });
-            before = after;
-        }
+        let heights =
+            heights::on_the_way(&road.heights, (&road.line, &line), ends.map(|end| self.heights[end]));
+        let gap = |end: usize| {
+            let own = if end == 0 { road.line.first() } else { road.line.last() };
+            own.map_or(0.0, |own| (own - self.points[ends[end]]).norm())
+        };
+        let own = (gap(0), length - gap(1));
+        let piece = Piece { ends, line, heights, own, level: 0, road, tips: [true; 2] };
+        let stations: Vec<f64> = (1..parts).map(|part| length * f64::from(part) / f64::from(parts)).collect();
+        let cut = self.cut(piece, &stations);
+        self.pieces.extend(cut);
         Ok(())
     }
+}
+
+/// The ends of the roads that became streets.
+fn tips<'a>(pieces: &[Piece<'a>]) -> Vec<Tip<'a>> {
+    let numbered = pieces.iter().enumerate();
+    let ends = numbered.flat_map(|(street, piece)| {
+        let ends = (0..2).filter(|end| piece.tips[*end]);
+        let tip = move |end: usize| Tip {
+            street,
+            at_start: end == 0,
+            road: &piece.road.id,
+            lanes: &piece.road.lanes[end],
+        };
+        ends.map(tip)
+    });
+    ends.collect()
 }
 
 fn pair(ends: [usize; 2]) -> [usize; 2] {
@@ -178,7 +183,11 @@ fn pair(ends: [usize; 2]) -> [usize; 2] {
 }
 
 fn height(web: &Web, place: &Place) -> f64 {
-    let of = |(road, end): &(usize, usize)| Some(web.roads[*road].as_ref()?.0.heights[*end]);
+    let of = |(road, end): &(usize, usize)| {
+        let heights = &web.roads[*road].as_ref()?.0.heights;
+        let (_, height) = if *end == 0 { heights.first() } else { heights.last() }?;
+        Some(*height)
+    };
     let heights: Vec<f64> = place.members.iter().filter_map(of).collect();
     heights.iter().sum::<f64>() / heights.len().max(1) as f64
 }
@@ -189,7 +198,8 @@ fn emit(gathered: &Gathered<'_>, web: &Web) -> StreetPlan {
     let mut numbers: Vec<Option<usize>> = vec![None; points.len()];
     let mut sections: BTreeMap<String, u32> = BTreeMap::new();
     let mut names: BTreeMap<&str, u32> = BTreeMap::new();
-    for Piece { ends, line, road } in pieces {
+    for Piece { ends, line, road, heights: on_the_way, level, .. } in pieces {
+        let line = heights::bent(line, on_the_way);
         let [from, to] = ends.map(|place| {
             *numbers[place].get_or_insert_with(|| {
                 plan.nodes.push(points[place]);
@@ -209,6 +219,8 @@ fn emit(gathered: &Gathered<'_>, web: &Web) -> StreetPlan {
             section,
             name,
             speed_limit: road.speed,
+            level: *level,
+            profile: on_the_way.clone().into(),
             ..Street::simple(from, to)
         });
     }
@@ -217,7 +229,8 @@ fn emit(gathered: &Gathered<'_>, web: &Web) -> StreetPlan {
             plan.controls.insert(node, if found.has_signals { Control::Signals } else { Control::Priority });
         }
     }
-    if plan.elevations.iter().all(|height| height.abs() < FLAT) {
+    let is_flat = |street: &Street| street.profile.is_empty();
+    if plan.elevations.iter().all(|height| height.abs() < FLAT) && plan.streets.iter().all(is_flat) {
         plan.elevations.clear();
     }
     if plan.sections.is_empty() {

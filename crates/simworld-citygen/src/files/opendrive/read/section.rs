@@ -16,35 +16,39 @@ const STRIP: (f64, f64) = (0.15, 50.0);
 const MOST_STRIPS: usize = 60;
 const MOST_LANES: usize = 8;
 
-/// The cross-section of a road at `station` m; `None` if nothing is driven there. `keeps_left` is the side of the traffic.
-pub(super) fn at(lanes: Node<'_, '_>, station: f64, keeps_left: bool) -> Option<CrossSection> {
-    let of = |name: &'static str| lanes.children().filter(move |child| child.has_tag_name(name));
-    let start = |section: &Node<'_, '_>| number(*section, "s").unwrap_or(0.0);
-    let section = of("laneSection").rfind(|section| start(section) <= station);
-    let section = section.or_else(|| of("laneSection").next())?;
-    let within = station - start(&section);
-    let offset = polynomial(of("laneOffset"), "s", station).unwrap_or(0.0);
+/// The cross-section of a section of lanes that begins at `start`, at `station` m along its road, and the number of the lane
+/// of each of its strips; `None` if nothing is driven there. `keeps_left` is the side of the traffic.
+pub(super) fn at(
+    lanes: Node<'_, '_>,
+    (start, section): (f64, Node<'_, '_>),
+    station: f64,
+    keeps_left: bool,
+) -> Option<(CrossSection, Vec<i32>)> {
+    let offsets = lanes.children().filter(|child| child.has_tag_name("laneOffset"));
+    let offset = polynomial(offsets, "s", station).unwrap_or(0.0);
     let side = |name: &str| {
         let lanes = section.children().filter(|child| child.has_tag_name(name));
         let mut lanes: Vec<(f64, LaneSpec)> = lanes
             .flat_map(|side| side.children().filter(|child| child.has_tag_name("lane")))
             .filter_map(|lane| {
-                Some((number(lane, "id")?, strip(lane, within, (name == "left") == keeps_left)?))
+                Some((number(lane, "id")?, strip(lane, station - start, (name == "left") == keeps_left)?))
             })
             .collect();
         // Outermost first on the left, innermost first on the right.
         lanes.sort_by(|a, b| b.0.total_cmp(&a.0));
         lanes.truncate(MOST_STRIPS / 2);
-        lanes.into_iter().map(|(_, strip)| strip).collect::<Vec<LaneSpec>>()
+        lanes
     };
     let (left, right) = (side("left"), side("right"));
-    let reference = left.iter().map(|strip| strip.width).sum::<f64>() + offset;
-    let mut section = CrossSection { lanes: [left, right].concat(), reference };
+    let reference = left.iter().map(|(_, strip)| strip.width).sum::<f64>() + offset;
+    let (numbers, lanes): (Vec<f64>, Vec<LaneSpec>) = [left, right].concat().into_iter().unzip();
+    let mut section = CrossSection { lanes, reference };
     tidy(&mut section);
     let (forward, backward) = section.driven();
     let reach = section.width();
     let is_near = (-reach..=2.0 * reach).contains(&section.reference);
-    (is_near && forward + backward > 0).then_some(section)
+    let numbers = numbers.into_iter().map(|number| number as i32).collect();
+    (is_near && forward + backward > 0).then_some((section, numbers))
 }
 
 /// One lane; `None` if it has no width there.
@@ -89,7 +93,7 @@ fn tidy(section: &mut CrossSection) {
     }
 }
 
-fn kind_of(name: &str) -> LaneKind {
+pub(super) fn kind_of(name: &str) -> LaneKind {
     match name {
         "driving" | "entry" | "exit" | "onRamp" | "offRamp" | "connectingRamp" | "slipLane"
         | "bidirectional" | "mwyEntry" | "mwyExit" => LaneKind::Driving,
@@ -117,6 +121,12 @@ pub(super) fn mirrored(section: &CrossSection) -> CrossSection {
         lanes: section.lanes.iter().rev().map(turned).collect(),
         reference: section.width() - section.reference,
     }
+}
+
+/// Whether two parts of a road have the same lanes, of whatever width.
+pub(super) fn has_same_lanes(a: &CrossSection, b: &CrossSection) -> bool {
+    let same = |(a, b): (&LaneSpec, &LaneSpec)| a.kind == b.kind && a.direction == b.direction;
+    a.lanes.len() == b.lanes.len() && a.lanes.iter().zip(&b.lanes).all(same)
 }
 
 /// Whether two roads are alike across.

@@ -7,7 +7,8 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::polyline;
 
 use super::document::{Link, Road, Roads};
-use super::section;
+use super::lanes::Leads;
+use super::{heights, section};
 
 /// Ends without a link that lie nearer to each other than this meet, m.
 const TOUCHING: f64 = 1.0;
@@ -31,16 +32,23 @@ pub(super) struct Web {
     pub(super) places: Vec<Place>,
 }
 
-/// Finds out which ends of the roads outside of junctions meet.
-pub(super) fn web_of(roads: Roads) -> Web {
+/// Finds out which ends of the roads outside of junctions meet; hands on which lane leads to which.
+pub(super) fn web_of(roads: Roads) -> (Web, Leads) {
     let (inner, outer): (Vec<Road>, Vec<Road>) =
         roads.all.into_iter().partition(|road| road.junction.is_some());
-    let numbers: BTreeMap<&str, usize> = outer.iter().map(|road| road.id.as_str()).zip(0..).collect();
+    // The first and the last part of each road.
+    let mut numbers: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    for (index, road) in outer.iter().enumerate() {
+        numbers.entry(road.id.as_str()).or_insert([index; 2])[1] = index;
+    }
+    let end_of = |id: &str, at_end: bool| {
+        numbers.get(id).map(|parts| 2 * parts[usize::from(at_end)] + usize::from(at_end))
+    };
     let within: BTreeMap<&str, &str> =
         inner.iter().filter_map(|road| Some((road.id.as_str(), road.junction.as_deref()?))).collect();
     let linked = outer.iter().flat_map(|road| &road.links).flatten().filter_map(|link| match link {
         Link::Junction(id) => Some(id.as_str()),
-        Link::Road(..) => None,
+        Link::Road(..) | Link::Part => None,
     });
     let mut junctions: Vec<&str> = linked.chain(within.values().copied()).collect();
     junctions.sort_unstable();
@@ -51,11 +59,11 @@ pub(super) fn web_of(roads: Roads) -> Web {
         for end in 0..2 {
             let other = match &road.links[end] {
                 Some(Link::Junction(id)) => junction(id),
-                Some(Link::Road(id, at_end)) => match numbers.get(id.as_str()) {
-                    Some(other) => Some(2 * other + usize::from(*at_end)),
-                    None => within.get(id.as_str()).and_then(|id| junction(id)),
-                },
-                None => None,
+                Some(Link::Road(id, at_end)) => {
+                    end_of(id, *at_end).or_else(|| within.get(id.as_str()).and_then(|id| junction(id)))
+                }
+                Some(Link::Part) if end == 0 => Some(2 * index - 1),
+                Some(Link::Part) | None => None,
             };
             other.map(|other| meeting.union(2 * index + end, other));
         }
@@ -64,14 +72,22 @@ pub(super) fn web_of(roads: Roads) -> Web {
         let place = road.junction.as_deref().and_then(junction);
         for link in road.links.iter().flatten() {
             if let (Link::Road(id, at_end), Some(place)) = (link, place)
-                && let Some(other) = numbers.get(id.as_str())
+                && let Some(other) = end_of(id, *at_end)
             {
-                meeting.union(2 * other + usize::from(*at_end), place);
+                meeting.union(other, place);
             }
         }
     }
     join_touching(&outer, &mut meeting);
-    let mut labels: Vec<Option<usize>> = vec![None; 2 * outer.len() + junctions.len()];
+    let signals: Vec<bool> = junctions.iter().map(|id| roads.signalised.contains(*id)).collect();
+    let (places, ends) = places(outer.len(), &signals, &meeting);
+    (Web { roads: outer.into_iter().zip(ends).map(Some).collect(), places }, roads.leads)
+}
+
+/// The places where the ends of so many roads meet, and those of each road. `signals` says which junctions have them: in
+/// `meeting` they come after the ends of roads.
+fn places(roads: usize, signals: &[bool], meeting: &UnionFind<usize>) -> (Vec<Place>, Vec<[usize; 2]>) {
+    let mut labels: Vec<Option<usize>> = vec![None; 2 * roads + signals.len()];
     let mut places: Vec<Place> = Vec::new();
     let mut label = |key: usize, places: &mut Vec<Place>| {
         *labels[meeting.find(key)].get_or_insert_with(|| {
@@ -79,19 +95,19 @@ pub(super) fn web_of(roads: Roads) -> Web {
             places.len() - 1
         })
     };
-    for (index, id) in junctions.iter().enumerate() {
-        let place = label(2 * outer.len() + index, &mut places);
+    for (index, has_signals) in signals.iter().enumerate() {
+        let place = label(2 * roads + index, &mut places);
         places[place].is_junction = true;
-        places[place].has_signals |= roads.signalised.contains(*id);
+        places[place].has_signals |= has_signals;
     }
     let ends: Vec<[usize; 2]> =
-        (0..outer.len()).map(|road| [0, 1].map(|end| label(2 * road + end, &mut places))).collect();
+        (0..roads).map(|road| [0, 1].map(|end| label(2 * road + end, &mut places))).collect();
     for (road, ends) in ends.iter().enumerate() {
         for (end, place) in ends.iter().enumerate() {
             places[*place].members.push((road, end));
         }
     }
-    Web { roads: outer.into_iter().zip(ends).map(Some).collect(), places }
+    (places, ends)
 }
 
 /// Ends without a link meet where they touch.
@@ -168,10 +184,13 @@ impl Web {
         let b = if at_second == 0 { b.clone() } else { reversed(b) };
         let (start, end) = (a_ends[1 - at_first], b_ends[1 - at_second]);
         let lengths = [polyline::length(&a.line), polyline::length(&b.line)];
-        if !section::is_alike(&a.section, &b.section) && lengths[0].min(lengths[1]) >= SHORT {
+        let is_alike = section::is_alike(&a.section, &b.section);
+        if !is_alike && lengths[0].min(lengths[1]) >= SHORT {
             return;
         }
-        let heights = [a.heights[0], b.heights[1]];
+        // Both ends may lie a little apart.
+        let gap = (b.line[0] - a.line[a.line.len() - 1]).norm();
+        let heights = heights::joined(&a.heights, &b.heights, lengths[0] + gap);
         let (mut kept, other) = if lengths[0] >= lengths[1] { (a.clone(), &b) } else { (b.clone(), &a) };
         if kept.name.is_empty() {
             kept.name.clone_from(&other.name);
@@ -179,6 +198,10 @@ impl Web {
         kept.line = [&a.line[..], &b.line[..]].concat();
         kept.line.dedup_by(|p, q| (*p - *q).norm() < 0.01);
         kept.heights = heights;
+        // Over the lanes of a short one that is unlike those of the longer one lead on.
+        if is_alike {
+            kept.lanes = [a.lanes[0].clone(), b.lanes[1].clone()];
+        }
         self.remove(first);
         self.remove(second);
         self.places[start].members.push((first, 0));
@@ -189,11 +212,12 @@ impl Web {
 
 /// A road seen from its other end.
 fn reversed(road: &Road) -> Road {
-    let [first, last] = road.heights;
+    let lanes = |end: usize| road.lanes[end].iter().rev().copied().collect();
     Road {
         line: polyline::reversed(&road.line),
-        heights: [last, first],
+        heights: heights::reversed(&road.heights, polyline::length(&road.line)),
         section: section::mirrored(&road.section),
+        lanes: [lanes(1), lanes(0)],
         ..road.clone()
     }
 }
