@@ -4,6 +4,7 @@ mod assets;
 mod bridges;
 mod footbridges;
 mod ground;
+mod plazas;
 mod scope;
 
 use std::sync::Arc;
@@ -246,7 +247,8 @@ impl Parts<'_> {
         for (path, width) in self.walkways() {
             self.walk(path, width, &mut descs);
         }
-        for way in self.footpaths() {
+        self.plazas(&mut descs);
+        for way in self.footpaths().filter(|way| way.plaza.is_none()) {
             if self.heights.is_level() {
                 self.walk(&way.path, way.width, &mut descs);
             } else {

@@ -9,6 +9,7 @@ use simworld_citygen::occupancy::Occupancy;
 use simworld_citygen::osm::{OsmId, PlaceOptions, Warning};
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::{Footpath, Plaza, polyline};
+use simworld_core::scene::{EntityKind, World};
 use simworld_core::seed::Seed;
 
 const SQUARE: [(&str, &str); 3] = [("type", "multipolygon"), ("highway", "pedestrian"), ("area", "yes")];
@@ -110,6 +111,15 @@ fn plaza(city: &City) -> &Plaza {
     plaza
 }
 
+/// How much of a plaza is paved in a world, m²: the walks whose middle lies on it.
+fn paved_over(city: &City, plaza: &Plaza) -> f64 {
+    let mut world = World::new();
+    city.populate(&mut world).unwrap();
+    let walks = world.iter().filter(|entity| entity.kind == EntityKind::Sidewalk);
+    let on_it = walks.filter(|walk| plaza.contains(walk.pose.translation.vector.xy().into()));
+    on_it.map(|walk| walk.info.shape.size().x * walk.info.shape.size().y).sum()
+}
+
 #[test]
 fn the_open_part_of_a_square_is_a_plaza() {
     let area = [("highway", "pedestrian"), ("area", "yes")];
@@ -129,6 +139,7 @@ fn the_open_part_of_a_square_is_a_plaza() {
         let (across, others): (Vec<&Footpath>, Vec<_>) =
             city.network.footpaths.iter().partition(|way| way.plaza.is_some());
         assert!(!across.is_empty() && across.iter().all(|way| plaza.contains(middle(way))));
+        assert!(paved_over(&city, plaza) > 0.98 * expected, "{} m² are paved", paved_over(&city, plaza));
         assert!(others.len() >= 2 && !others.iter().any(|way| plaza.contains(middle(way))));
     }
 }

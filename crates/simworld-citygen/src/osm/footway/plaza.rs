@@ -41,7 +41,9 @@ pub(super) fn open(
                 continue;
             }
             let id = Some(PlazaId::from_index(plazas.len()));
-            on_it.into_iter().for_each(|way| paths[way].plaza = id);
+            for way in on_it {
+                paths[way].plaza = id;
+            }
             plazas.push(part);
         }
     }
