@@ -7,10 +7,10 @@
 //! nothing else does. Vertices are `f32` about the middle of the city, which the root node puts back in its place.
 
 mod bridges;
-mod footbridges;
 mod buildings;
 mod city;
 mod document;
+mod footbridges;
 mod mesh;
 mod strips;
 
