@@ -14,8 +14,9 @@ const RAISED: f64 = 0.02;
 const CARRIED: f64 = 0.3;
 /// Below less free height than this nobody walks, and a wall closes it, m.
 const LOW: f64 = 2.0;
-/// Longest piece of a deck, and distance between piers, m.
+/// Longest piece of a deck, the most that a piece rises, and distance between piers, m.
 const LONGEST: f64 = 10.0;
+const RISES: f64 = 1.0;
 const PIERS: f64 = 20.0;
 /// A pier keeps this distance from sidewalks and ways below, m.
 const CLEAR: f64 = 1.0;
@@ -46,10 +47,10 @@ impl Flight {
         [0, 1].map(|end| self.span.heights[end] - self.span.ground[end])
     }
 
-    /// How high it is above the ground where it is highest, m, if a wall closes what is below.
-    pub(crate) fn wall(&self) -> Option<f64> {
+    /// Whether a wall closes what is below.
+    pub(crate) fn has_wall(&self) -> bool {
         let [a, b] = self.above();
-        (self.free() < LOW && a.max(b) > FOOTBRIDGE_DECK + 0.05).then(|| a.max(b))
+        self.free() < LOW && a.max(b) > FOOTBRIDGE_DECK + 0.05
     }
 
     /// Whether one goes up or down on steps.
@@ -89,7 +90,7 @@ fn footbridge(
     let footpath = &network.footpaths[way];
     let length = polyline::length(&footpath.path);
     let open = [0, 1].map(|end| corners.room(footpath, end).min(length * 0.5));
-    let stations = stations(footpath, heights.profile(way), [open[0], length - open[1]]);
+    let stations = stations(network, (way, heights), [open[0], length - open[1]]);
     let point = |station: f64| polyline::at(&footpath.path, station).0;
     let height = |station: f64| ground.height(point(station)) + heights.at(way, station);
     let flights = stations.windows(2).map(|pair| {
@@ -108,20 +109,25 @@ fn footbridge(
     Footbridge { way, half: footpath.width * 0.5, flights, piers: piers(network, (way, heights), ground) }
 }
 
-/// Where a deck bends or its railings end, and places between so that no piece is long.
-fn stations(footpath: &Footpath, profile: &[(f64, f64)], railings: [f64; 2]) -> Vec<f64> {
+/// Where a deck bends or its railings end, and places between so that no piece is long or rises by much.
+fn stations(
+    network: &RoadNetwork,
+    (way, heights): (usize, &FootpathHeights),
+    railings: [f64; 2],
+) -> Vec<f64> {
     let mut bends = vec![0.0];
-    for pair in footpath.path.windows(2) {
+    for pair in network.footpaths[way].path.windows(2) {
         bends.push(bends[bends.len() - 1] + (pair[1] - pair[0]).norm());
     }
     let length = bends[bends.len() - 1];
-    bends.extend(profile.iter().map(|(station, _)| station.min(length)));
+    bends.extend(heights.profile(way).iter().map(|(station, _)| station.min(length)));
     bends.extend(railings);
     bends.sort_by(f64::total_cmp);
     bends.dedup_by(|a, b| *a - *b < 0.02);
     let mut stations = vec![0.0];
     for pair in bends.windows(2) {
-        let count = ((pair[1] - pair[0]) / LONGEST).ceil().max(1.0);
+        let rise = (heights.at(way, pair[1]) - heights.at(way, pair[0])).abs();
+        let count = ((pair[1] - pair[0]) / LONGEST).max(rise / RISES).ceil().max(1.0);
         let parts = (1..=count as u32).map(|part| f64::from(part) / count);
         stations.extend(parts.map(|share| pair[0] + (pair[1] - pair[0]) * share));
     }

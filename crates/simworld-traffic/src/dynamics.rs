@@ -274,7 +274,8 @@ fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     desc.colored(PAINTS[paint.below(PAINTS.len())])
 }
 
-/// A person at a height above the ground, m, as tall as their age and sex say: grown up at 18, 1.78 m or 1.65 m tall on average (NCD-RisC 2016, Europe).
+/// A person at a height above the ground, m. They are as tall as their age and sex say: grown up at 18, 1.78 m or 1.65 m tall on average
+/// (NCD-RisC 2016, Europe).
 fn portray(walker: &Pedestrian, height_above: f64, paint: &mut StreamRng) -> EntityDesc {
     let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, height_above), walker.heading());
     let grown = if walker.sex() == Sex::Male { 1.78 } else { 1.65 };

@@ -1,6 +1,6 @@
 //! Footbridges as entities: decks and stairs that one walks on, railings, walls and piers. Stairs are inclined slabs.
 
-use simworld_core::geometry::Vector2;
+use simworld_core::geometry::{Obb, Vector2};
 use simworld_core::net::FOOTBRIDGE_DECK;
 use simworld_core::scene::{EntityDesc, EntityKind, Shape};
 
@@ -14,6 +14,8 @@ use crate::strips::strip;
 pub(crate) const RAILING: (f64, f64) = (1.07, 0.08);
 /// Thickness of a pier along the bridge, m, and its share of the width of the deck.
 pub(crate) const PIER: (f64, f64) = (0.6, 0.5);
+/// A wall stands so far within the edges of the deck above it, m.
+const INSET: f64 = 0.05;
 
 impl Parts<'_> {
     pub(super) fn footbridges(&self, descs: &mut Vec<EntityDesc>) {
@@ -33,29 +35,30 @@ fn add(flight: &Flight, half: f64, descs: &mut Vec<EntityDesc>) {
     add(EntityKind::Sidewalk, (half, -half), SIDEWALK_TOP, LAYER);
     // Surfaces are flat: it is the deck below that bears.
     add(EntityKind::Prop, (half, -half), GROUND_TOP, FOOTBRIDGE_DECK);
-    if let Some(high) = flight.wall() {
-        // Down to the lower end of the ground, as thick as it is high.
-        let inner = 0.05;
-        add(
-            EntityKind::Prop,
-            (half - inner, inner - half),
-            GROUND_TOP - FOOTBRIDGE_DECK,
-            high - FOOTBRIDGE_DECK + 0.2,
-        );
-    }
     if flight.has_railings {
         let (height, width) = RAILING;
         add(EntityKind::Prop, (half, half - width), SIDEWALK_TOP + height, height);
         add(EntityKind::Prop, (width - half, -half), SIDEWALK_TOP + height, height);
     }
+    if flight.has_wall() {
+        // Upright, from the ground to the lower end of the deck.
+        let ([a, b], heights, ground) = (flight.span.ends, flight.span.heights, flight.span.ground);
+        let (foot, top) = (ground[0].min(ground[1]), heights[0].min(heights[1]) - FOOTBRIDGE_DECK);
+        let box_ = strip(a, b, half - INSET, half - INSET, 0.0);
+        descs.extend((top - foot > INSET).then(|| upright(&box_, (foot, top))));
+    }
+}
+
+/// A box with the ground plan of a strip, from a height to another.
+fn upright(plan: &Obb, (foot, top): (f64, f64)) -> EntityDesc {
+    let mut pose = plan.pose;
+    pose.translation.z = foot;
+    let size = plan.half_extents * 2.0;
+    EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(size.x, size.y, (top - foot).max(0.1)))
 }
 
 fn column(pier: &Pier, half: f64) -> EntityDesc {
     let along = Vector2::new(pier.across.y, -pier.across.x) * (PIER.0 * 0.5);
     let box_ = strip(pier.at - along, pier.at + along, half * PIER.1, half * PIER.1, 0.0);
-    let (foot, top) = pier.heights;
-    let mut pose = box_.pose;
-    pose.translation.z = foot;
-    let size = box_.half_extents * 2.0;
-    EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(size.x, size.y, (top - foot).max(0.1)))
+    upright(&box_, pier.heights)
 }

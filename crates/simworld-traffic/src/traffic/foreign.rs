@@ -373,6 +373,7 @@ mod tests {
                 half_width: rng.uniform(1.6, 16.0),
                 direction: direction(FRAC_PI_6 * rng.below(12) as f64),
                 velocity: Vector2::zeros(),
+                height: 0.0,
             };
             // How far a point is within the house, m; below zero outside.
             let within = |point: Point2| {

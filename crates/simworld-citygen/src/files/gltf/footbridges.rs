@@ -63,9 +63,10 @@ pub(super) fn node(builder: &mut Builder<'_>, city: &City) -> Node {
 fn underside(flight: &Flight) -> [f64; 2] {
     let span = &flight.span;
     let deck = -FOOTBRIDGE_DECK;
-    match flight.wall() {
-        Some(_) => [0, 1].map(|end| (span.ground[end] - span.heights[end] - 0.5).min(deck)),
-        None => [deck; 2],
+    if flight.has_wall() {
+        [0, 1].map(|end| (span.ground[end] - span.heights[end] - 0.5).min(deck))
+    } else {
+        [deck; 2]
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{FOOTBRIDGE_DECK, FOOTBRIDGE_HEADROOM};
 use crate::geometry::{Point2, bounds};
 use crate::id::RoadId;
-use crate::net::{Footpath, Road, RoadNetwork, polyline};
+use crate::net::{Footpath, Road, RoadNetwork, Sidewalk, polyline};
 
 /// Distance between the places at which it is looked for what lies below, m: half as wide as a car.
 const STEP: f64 = 0.5;
@@ -105,15 +105,20 @@ fn above_ground(network: &RoadNetwork, id: RoadId, station: f64, at: Point2) -> 
 
 /// The height above the ground of the sidewalk that is nearest to an end that joins it, m: those of bridges lie high.
 pub(super) fn sidewalk(network: &RoadNetwork, at: Point2) -> f64 {
-    if network.roads.iter().all(|road| road.level <= 0) {
+    let distance = |walk: &Sidewalk| {
+        let (low, high) = bounds(&walk.path)?;
+        if (low - at).sup(&(at - high)).max() > JOINS {
+            return None;
+        }
+        polyline::closest(&walk.path, &at).map(|near| near.distance).filter(|distance| *distance < JOINS)
+    };
+    let is_high = |walk: &&Sidewalk| network.roads[walk.road.index()].level > 0;
+    // Most are far from all bridges.
+    if !network.sidewalks.iter().filter(is_high).any(|walk| distance(walk).is_some()) {
         return 0.0;
     }
-    let mut nearest = (JOINS, 0.0);
-    for walk in &network.sidewalks {
-        let near = polyline::closest(&walk.path, &at).filter(|near| near.distance < nearest.0);
-        let road = &network.roads[walk.road.index()];
-        let Some((near, on)) = near.zip(polyline::closest(&road.centerline, &at)) else { continue };
-        nearest = (near.distance, above_ground(network, walk.road, on.station, at));
-    }
-    nearest.1
+    let all = network.sidewalks.iter().filter_map(|walk| Some((distance(walk)?, walk.road)));
+    let Some((_, road)) = all.min_by(|a, b| a.0.total_cmp(&b.0)) else { return 0.0 };
+    let near = polyline::closest(&network.roads[road.index()].centerline, &at);
+    near.map_or(0.0, |near| above_ground(network, road, near.station, at))
 }

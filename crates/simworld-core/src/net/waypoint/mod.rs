@@ -121,6 +121,8 @@ pub struct WaypointGraph {
 
 /// Who is no farther from a waypoint than this may still be on the way that leads to it, m.
 const TURNING: f64 = 1.0;
+/// Ways that are so much as near are as near, m.
+const SAME: f64 = 1e-6;
 
 impl WaypointGraph {
     /// The coarse level: intersections, joined by roads in the directions in which they may be driven.
@@ -178,18 +180,21 @@ impl WaypointGraph {
         self.heights.get(id.index()).copied().unwrap_or(0.0)
     }
 
-    /// Height above the ground at a place beside or on the way from one waypoint straight to another, m. Near the first it may
-    /// be that of a way that leads there, if that is nearer: who turns from one on to the next stays at their height.
+    /// Height above the ground at a place beside or on the way from one waypoint straight to another, m. Near either of them it may
+    /// be that of another way there, if that is nearer: who turns from one into the next goes up and down without a step.
     pub fn height_between(&self, from: WaypointId, to: WaypointId, at: Point2) -> f64 {
         if self.heights.is_empty() {
             return 0.0;
         }
         let (mut nearest, mut height) = self.beside(from, to, at);
-        if (self.waypoint(from).position - at).norm_squared() <= TURNING * TURNING {
-            for before in self.edges(from).iter().map(|edge| edge.to).filter(|before| *before != to) {
-                let (distance, other) = self.beside(from, before, at);
-                if distance < nearest {
-                    (nearest, height) = (distance, other);
+        for (end, other) in [(from, to), (to, from)] {
+            if (self.waypoint(end).position - at).norm_squared() > TURNING * TURNING {
+                continue;
+            }
+            for next in self.edges(end).iter().map(|edge| edge.to).filter(|next| *next != other) {
+                let (distance, its) = self.beside(end, next, at);
+                if distance < nearest - SAME {
+                    (nearest, height) = (distance, its);
                 }
             }
         }
