@@ -1,7 +1,7 @@
 //! Drives of people in vehicles of their own, and the choice between them, lines and one's feet.
 //!
-//! What is quickest is found as SUMO's intermodal router does: by free travel times, and with a vehicle of one's own from the very beginning
-//! or not at all (SUMO user documentation, *Intermodal Routing*).
+//! What is quickest is found as SUMO's intermodal router does: by free travel times, and with a vehicle of one's own from the very
+//! beginning or not at all (SUMO user documentation, *Intermodal Routing*).
 
 use simworld_core::geometry::Point2;
 use simworld_core::net::RoadNetwork;

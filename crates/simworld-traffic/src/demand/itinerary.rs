@@ -254,8 +254,8 @@ impl Travellers {
         count
     }
 
-    /// Takes up what happened in the last step, and lets those begin their next stage who may. Returns the numbers of the vehicles that were
-    /// sent for them, with their names.
+    /// Takes up what happened in the last step, and lets those begin their next stage who may. Returns the numbers of the vehicles that
+    /// were sent for them, with their names.
     pub(super) fn feed(&mut self, traffic: &mut Traffic, around: &Surroundings<'_>) -> Vec<(u64, String)> {
         let now = traffic.seconds();
         let mut sent = Vec::new();

@@ -95,7 +95,9 @@ impl IntersectionManager {
         let mut detectors = vec![None; self.aspects.len()];
         for plan in &self.plans {
             let detector = self.policy.delays(plan);
-            plan.groups.iter().for_each(|group| detectors[group.index()] = detector);
+            for group in &plan.groups {
+                detectors[group.index()] = detector;
+            }
         }
         detectors
     }

@@ -45,8 +45,8 @@ pub struct Demand<'a> {
     pub kerb: &'a [f64],
     /// Time since the group last showed green, s; zero while it does.
     pub since_green: &'a [f64],
-    /// How soon a vehicle that has lost time could be at the stop line at the speed limit, s, the nearest of them; infinite without one, and
-    /// where the policy [looks for none](SignalPolicy::delays).
+    /// How soon a vehicle that has lost time could be at the stop line at the speed limit, s, the nearest of them; infinite without
+    /// one, and where the policy [looks for none](SignalPolicy::delays).
     pub delayed: &'a [f64],
     /// Vehicles within the range in which it looks for them.
     pub in_range: &'a [u32],
@@ -146,8 +146,8 @@ pub trait SignalPolicy {
         None
     }
 
-    /// The detector by which it looks for vehicles that have lost time; none, unless it wants one. It is asked once for every plan, when the
-    /// policy or the plans are set.
+    /// The detector by which it looks for vehicles that have lost time; none, unless it wants one. It is asked once for every plan,
+    /// when the policy or the plans are set.
     fn delays(&self, _plan: &SignalPlan) -> Option<DelayDetector> {
         None
     }

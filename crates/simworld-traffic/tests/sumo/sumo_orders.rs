@@ -257,6 +257,10 @@ fn odd_choices_are_told_of() {
     phases[2] = r#"minDur="5" duration="9" state="rrGGr" next="5 6" earlyTarget="x""#;
     let net = read(ACTUATED, &phases);
     assert!(warnings(&net).iter().any(|warning| warning.contains("conditions")), "{:?}", net.warnings);
+    // The corner A2 has as many links.
+    let shared = grid(ACTUATED, &CHOICE).replace(r#"tl="A2""#, r#"tl="A0""#);
+    let net = SumoNet::read(shared.as_bytes()).unwrap();
+    assert!(warnings(&net).iter().any(|warning| warning.contains("is of 2 junctions")), "{:?}", net.warnings);
     let many: Vec<String> = (0..600)
         .map(|phase| {
             format!(r#"duration="9" state="GGrrr" next="{} {}""#, (phase + 1) % 600, (phase + 2) % 600)

@@ -6,8 +6,8 @@
 //! latest; the next of the program follows, whether or not anybody waits for it. Where a phase names several that may follow (`next`), the
 //! one with the most detectors follows that somebody passes or passed since they last had green; the phase itself goes on while its own
 //! count for more; the first that is named follows if nobody comes at all. Where SUMO has a detector a lane, here is one a signal group.
-//! Type `delay_based`: a phase goes on while a vehicle that has lost more than `minTimeLoss` within `detectorRange` before the line could pass
-//! by `maxDur`, and up to `maxDur` while nobody is within that range on a red lane, with `extendMaxDur` even longer.
+//! Type `delay_based`: a phase goes on while a vehicle that has lost more than `minTimeLoss` within `detectorRange` before the line could
+//! pass by `maxDur`, and up to `maxDur` while nobody is within that range on a red lane, with `extendMaxDur` even longer.
 
 use std::collections::BTreeMap;
 

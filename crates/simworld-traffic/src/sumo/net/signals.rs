@@ -21,8 +21,8 @@ const LONGEST_GAP: f64 = 3.0;
 const RANGE: f64 = 100.0;
 /// SUMO's `minTimeLoss`, s, where the file says nothing.
 const LEAST_LOSS: f64 = 1.0;
-/// Phases of a program at most that chooses among them: for each, all others are looked at.
-const MOST_CHOICE: usize = 512;
+/// Phases of a program at most that name those that follow: for each, all others may be looked at.
+const MOST_NAMED: usize = 512;
 
 /// Who obeys a link; vehicles come first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,6 +65,16 @@ impl Build {
             }
         }
         let mut last = None;
+        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+        for (_, id) in links.keys() {
+            *places.entry(id).or_default() += 1;
+        }
+        for (id, count) in places.into_iter().filter(|(_, count)| *count > 1) {
+            if logics.get(id).is_some_and(|logic| logic.is_actuated()) {
+                let reason = format!("is of {count} junctions: each of them follows its own vehicles");
+                self.warnings.push(SumoWarning::new("tlLogic", id, reason));
+            }
+        }
         for ((place, id), links) in links {
             let Some(logic) = logics.get(id) else {
                 let (element, what) = ("connection", "signal");
@@ -116,7 +126,7 @@ impl Build {
         let first = self.builder.add_signals(place, count, offset, phases);
         if logic.is_actuated() {
             let numbers: Vec<usize> = order.phases.iter().map(|phase| numbers[*phase]).collect();
-            self.add_program(logic, place, (&order, &numbers), others)?;
+            self.add_program(logic, place, (&order, &numbers), others);
         }
         for ((who, _), own) in lit().zip(&columns) {
             let Some(rank) = groups.iter().position(|group| *group == own) else { continue };
@@ -132,6 +142,10 @@ impl Build {
     /// Checks the phases that a program names, and warns of what its phases wait for beside gaps and bounds.
     fn check_phases(&mut self, logic: &Logic) -> Result<(), SumoError> {
         let count = logic.phases.len();
+        if count > MOST_NAMED && logic.phases.iter().any(|phase| !phase.next.is_empty()) {
+            let (what, limit) = ("phases of a signal that name those that follow", MOST_NAMED as u64);
+            return Err(SumoError::TooMuch { what, limit });
+        }
         for (number, phase) in logic.phases.iter().enumerate() {
             if let Some(lost) = phase.next.iter().find(|next| **next >= count) {
                 return Err(SumoError::Attribute {
@@ -184,8 +198,8 @@ impl Build {
         place: IntersectionId,
         (order, numbers): (&Order, &[usize]),
         mut others: Vec<Phase>,
-    ) -> Result<(), SumoError> {
-        let Some(plan) = self.builder.network().signals.last() else { return Ok(()) };
+    ) {
+        let Some(plan) = self.builder.network().signals.last() else { return };
         let first = plan.groups.first().map_or(0, |group| group.0);
         for group in others.iter_mut().flat_map(|phase| phase.green.iter_mut().chain(&mut phase.yellow)) {
             group.0 += first;
@@ -193,10 +207,6 @@ impl Build {
         let bounds = numbers.iter().map(|number| logic.phases[*number].bounds).collect();
         let mut program = Program::new(extends(logic), bounds);
         if order.has_choice() {
-            if numbers.len() > MOST_CHOICE {
-                let limit = MOST_CHOICE as u64;
-                return Err(SumoError::TooMuch { what: "phases of a signal that chooses among them", limit });
-            }
             let branches = Branches { phases: others, next: order.next.clone() };
             if let Some(phase) = program.choose(plan, branches, logic.inactive) {
                 let number = numbers[phase];
@@ -206,7 +216,6 @@ impl Build {
             }
         }
         self.programs.add(place, program);
-        Ok(())
     }
 }
 

@@ -3,9 +3,9 @@
 //! Edges are named; [`SumoDemand::schedule`] finds them in a network. Trips take the quickest way. A flow comes at even
 //! times (`period`, `vehsPerHour`, `number`), at random (`period="exp(rate)"`), or, with `probability`, at random with
 //! that mean a second, which is what a chance a second comes to. Vehicles make their stops; people walk, wait, and ride in
-//! vehicles that halt where they get in and out; trips of people (`personTrip`) go by whatever is quickest when they begin: on foot, with the mode
-//! `public` by lines, and with the modes `car` and `bicycle` or `vTypes` in a vehicle of their own, which departs for them, from the very
-//! beginning. Containers, and other modes, are warned of.
+//! vehicles that halt where they get in and out; trips of people (`personTrip`) go by whatever is quickest when they begin: on foot,
+//! with the mode `public` by lines, and with the modes `car` and `bicycle` or `vTypes` in a vehicle of their own, which departs for them,
+//! from the very beginning. Containers, and other modes, are warned of.
 //!
 //! Source of the format: SUMO user documentation, *Definition of Vehicles, Vehicle Types, and Routes*.
 
