@@ -95,8 +95,8 @@ pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<R
     }
     let of = |name: &'static str| root.children().filter(move |child| child.has_tag_name(name));
     let keeps_left = |road: &Node<'_, '_>| road.attribute("rule") == Some("LHT");
-    let mut roads = Roads::default();
-    roads.origin = child(root, "header").and_then(|header| child(header, "geoReference")).and_then(origin);
+    let reference = child(root, "header").and_then(|header| child(header, "geoReference"));
+    let mut roads = Roads { origin: reference.and_then(origin), ..Roads::default() };
     let (mut known, mut lanes) = (BTreeSet::new(), Lanes::default());
     for node in of("road") {
         let Some(id) = node.attribute("id") else {
