@@ -140,11 +140,12 @@ fn crossroads(turns: &[Turning], keeps_left: bool) -> String {
         let lanes =
             if keeps_left { section(0.0, &[(1, &own)], &[]) } else { section(0.0, &[], &[(-1, &own)]) };
         text += &road((number, 9), (0.0, 0.0, 0.0), 10.0, &links, &lanes);
-        junction += &format!(
+        let connection = format!(
             "<connection id='{number}' incomingRoad='{from}' connectingRoad='{number}' contactPoint='start'>\
              <laneLink from='{}' to='{leaves}'/></connection>",
             arrives * lane
         );
+        junction += &connection;
     }
     text += &junction;
     text += "</junction></OpenDRIVE>";
