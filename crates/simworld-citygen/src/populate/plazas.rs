@@ -1,6 +1,7 @@
 //! Plazas as entities: paving in strips along the longest side, none of which reaches beyond an edge.
 
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::PlazaId;
 use simworld_core::net::Plaza;
 use simworld_core::scene::EntityDesc;
 
@@ -19,7 +20,7 @@ impl Parts<'_> {
     /// The paving of the plazas that the ways for walkers cross.
     pub(super) fn plazas(&self, descs: &mut Vec<EntityDesc>) {
         let mut crossed: Vec<usize> =
-            self.footpaths().filter_map(|way| way.plaza).map(|plaza| plaza.index()).collect();
+            self.footpaths().filter_map(|way| way.plaza).map(PlazaId::index).collect();
         crossed.sort_unstable();
         crossed.dedup();
         let widest = if self.heights.is_level() { WIDEST } else { CLIMB };
