@@ -2,10 +2,9 @@
 //!
 //! An edit of a street cuts and joins the streets that it meets, derives the roads round it anew, and divides and builds on
 //! the blocks on both its sides by the rules of the whole city, of the open land round a town as much as the change reaches.
-//! Every block, lot, sidewalk and green draws from a stream of
-//! its own place, so what comes out is what the whole city would be on the new streets; buildings that come out as they were
-//! keep their names and uses. What a map or a hand put there ([`Building::given`], [`Element::along`]) stays as long as it
-//! has room.
+//! Every block, lot, sidewalk and green draws from a stream of its own place, so what comes out is what the whole city would
+//! be on the new streets; buildings that come out as they were keep their names and uses. What a map or a hand put there
+//! ([`Building::given`], [`Element::along`]) stays as long as it has room.
 //!
 //! Numbers of roads, intersections, buildings and elements stay as they are, but for the last ones, which take the numbers
 //! of what is gone. Every edit gives a [`CityPatch`] that takes it back to the bit.
