@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod a_running_city_is_edited_by_words;
+mod bridges_bear_traffic;
 mod cities_go_through_sumo;
 mod drivers_drive;
 mod edits_keep_to_the_land;

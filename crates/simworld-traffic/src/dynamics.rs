@@ -9,7 +9,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use simworld_core::environment::Weather;
-use simworld_core::geometry::{Point3, Pose, Twist, Vector2, Vector3, direction, pose_facing, yaw_of};
+use simworld_core::geometry::{
+    Point2, Point3, Pose, Twist, Vector2, Vector3, direction, pose_facing, yaw_of,
+};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape, World};
@@ -20,7 +22,7 @@ use simworld_core::value::Value;
 
 use self::handed::Who;
 use self::others::Others;
-use crate::traffic::State;
+use crate::traffic::{Obstructs, State};
 use crate::{Body, DrivingConditions, Foreign, Pedestrian, Sex, Traffic, TrafficConfig, TrafficError};
 
 /// Colours of cars, linear-light sRGB.
@@ -156,7 +158,11 @@ impl TrafficDynamics {
     fn look_around(&mut self, world: &World) {
         let Self { others, vehicles, pedestrians, traffic, first, .. } = self;
         let in_the_way = |entity: &EntityRef<'_>| match standing(entity) {
-            Some(Standing::Put) => traffic.is_in_the_way(&seen(entity)),
+            Some(Standing::Put) => match obstructs(traffic, entity) {
+                Obstructs::Nothing => false,
+                Obstructs::OffGround => first.get(&entity.id) != Some(&stance(entity)),
+                Obstructs::Ground => true,
+            },
             Some(Standing::Built) => traffic.is_on_a_track(&seen(entity)),
             Some(Standing::Founded) => {
                 first.get(&entity.id) != Some(&stance(entity)) && traffic.is_on_a_track(&seen(entity))
@@ -250,6 +256,8 @@ impl TrafficDynamics {
     }
 }
 
+/// A thing whose upper side is no steeper than this stands, as the cosine of its slope.
+const STANDS: f64 = 0.7;
 /// Whose number has no entity: no world has so many that one has this id.
 const NOBODY: EntityId = EntityId::new(u32::MAX, u32::MAX);
 
@@ -302,7 +310,8 @@ fn seen(entity: &EntityRef<'_>) -> Foreign {
 /// What stands in streets.
 #[derive(Clone, Copy)]
 enum Standing {
-    /// Put somewhere, and in the way as soon as a vehicle would touch it.
+    /// Put somewhere, and in the way as soon as a vehicle would touch it. What does so on bridges and in tunnels alone, and from the
+    /// beginning, are their own parts and what stands above them.
     Put,
     /// What a street is built with beside its lanes, and in the way only where it stands on one.
     Built,
@@ -336,10 +345,29 @@ fn stance(entity: &EntityRef<'_>) -> (Pose, Shape) {
     (*entity.pose, entity.info.shape)
 }
 
+/// Where a thing is in the way of vehicles.
+fn obstructs(traffic: &Traffic, entity: &EntityRef<'_>) -> Obstructs {
+    let (pose, size) = (entity.pose, entity.info.shape.size());
+    let middle = pose * Point3::new(0.0, 0.0, size.z);
+    let normal = pose.rotation * Vector3::z();
+    // The upper side of what stands or slopes is a plane; what has tipped over reaches as high as it may.
+    let top = |at: Point2| {
+        let offset = at - middle.xy();
+        if normal.z > STANDS {
+            middle.z - offset.dot(&normal.xy()) / normal.z
+        } else {
+            pose.translation.z + size.norm()
+        }
+    };
+    traffic.obstructs(&seen(entity), &top)
+}
+
 /// What stands over lanes before there is traffic on them.
 fn at_first(world: &World, traffic: &Traffic) -> First {
-    let is_over_a_lane = |entity: &EntityRef<'_>| {
-        matches!(standing(entity), Some(Standing::Founded)) && traffic.is_on_a_track(&seen(entity))
+    let is_over_a_lane = |entity: &EntityRef<'_>| match standing(entity) {
+        Some(Standing::Founded) => traffic.is_on_a_track(&seen(entity)),
+        Some(Standing::Put) => obstructs(traffic, entity) == Obstructs::OffGround,
+        _ => false,
     };
     world.iter().filter(is_over_a_lane).map(|entity| (entity.id, stance(&entity))).collect()
 }

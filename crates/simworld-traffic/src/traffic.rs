@@ -20,9 +20,11 @@ pub use bodies::Body;
 pub use counters::Counters;
 use foreign::Finder;
 pub use foreign::Foreign;
+pub(crate) use foreign::Obstructs;
 use gap::Gaps;
 pub use interest::Interest;
 use serde::{Deserialize, Serialize};
+use simworld_core::geometry::Point2;
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::net::{Alone, Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, Workers};
 use simworld_core::seed::{Seed, Stream};
@@ -316,9 +318,9 @@ impl Traffic {
         self.update_signals(dt);
     }
 
-    /// Whether a body reaches into what vehicles sweep.
-    pub(crate) fn is_in_the_way(&self, body: &Foreign) -> bool {
-        body.is_sound() && self.finder.is_in_the_way(&self.tracks, body)
+    /// Where a thing whose upper side is so high at a place, m, reaches into what vehicles sweep.
+    pub(crate) fn obstructs(&self, body: &Foreign, top: &dyn Fn(Point2) -> f64) -> Obstructs {
+        if body.is_sound() { self.finder.obstructs(&self.tracks, body, top) } else { Obstructs::Nothing }
     }
 
     /// Whether a body stands where everybody drives, and not beside a lane.

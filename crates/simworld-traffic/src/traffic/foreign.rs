@@ -31,6 +31,8 @@ const EDGE: f64 = 1.0;
 /// Who is higher than this above a street is in nobody's way, m: on public roads vehicles are 4 m high at most in Europe (Directive
 /// 96/53/EC) and 14 feet in most states of the USA.
 const OVERHEAD: f64 = 4.5;
+/// What rises above the surface of a street by less than this is driven over, m.
+const SURFACE: f64 = 0.05;
 /// Nor is who stands so far below it, m, as in a subway.
 const BELOW: f64 = 2.2;
 
@@ -65,8 +67,7 @@ impl Foreign {
         if (-BELOW..=OVERHEAD).contains(&self.height) {
             return false;
         }
-        let near = polyline::closest(&network.roads[road.index()].centerline, &at);
-        let above = self.height - network.height(road, near.map_or(0.0, |near| near.station));
+        let above = self.height - street_height(network, road, at);
         above > OVERHEAD || (self.height < -BELOW && above < -BELOW)
     }
 }
@@ -196,25 +197,46 @@ impl Finder {
         obstacles.sort_by(|a, b| a.track.cmp(&b.track).then(a.near.total_cmp(&b.near)));
     }
 
-    /// Whether a body reaches into what the broadest vehicle sweeps.
-    pub(super) fn is_in_the_way(&self, tracks: &Tracks, body: &Foreign) -> bool {
-        self.reaches_into(tracks, body, |_| Some(SWEPT))
+    /// On which streets a thing whose upper side is so high at a place, m, reaches into what the broadest vehicle sweeps. What lies below the surface
+    /// of a street, as the deck that bears it does, is in nobody's way there.
+    pub(super) fn obstructs(
+        &self,
+        tracks: &Tracks,
+        body: &Foreign,
+        top: &dyn Fn(Point2) -> f64,
+    ) -> Obstructs {
+        let network = &tracks.network;
+        let mut found = Obstructs::Nothing;
+        for (at, reach) in body.discs().chain(body.corners()) {
+            for track in self.tracks_at(at) {
+                let near = polyline::closest(tracks.path(track), &at);
+                if near.is_none_or(|near| near.distance >= SWEPT + reach) {
+                    continue;
+                }
+                let road = road_of(tracks, track);
+                if top(at) < street_height(network, road, at) + SURFACE || body.is_clear_of(network, road, at)
+                {
+                    continue;
+                }
+                if is_on_ground(tracks, track) {
+                    return Obstructs::Ground;
+                }
+                found = Obstructs::OffGround;
+            }
+        }
+        found
     }
 
     /// Whether a body reaches into the middle of a track, over which everybody drives, and no farther than its lane is wide. What a street
     /// is built with stands beyond its lanes, or below a bridge and above a tunnel, which do not count; what the broadest vehicle sweeps
     /// reaches over the kerb of narrow lanes.
     pub(super) fn is_on_a_track(&self, tracks: &Tracks, body: &Foreign) -> bool {
-        let (lanes, roads) = (&tracks.network.lanes, &tracks.network.roads);
-        let is_on_ground = |lane: u32| roads[lanes[lane as usize].road.index()].level == 0;
-        self.reaches_into(tracks, body, |track| {
-            let ends = match tracks.connection(track) {
-                Some(way) => [tracks.ways[way].from, tracks.ways[way].to],
-                None => [track; 2],
-            };
-            let half = (lanes[ends[0] as usize].width * 0.5).min(CORE);
-            ends.into_iter().all(is_on_ground).then_some(half)
-        })
+        let half = |track| {
+            let [from, _] = ends_of(tracks, track);
+            let half = (tracks.network.lanes[from as usize].width * 0.5).min(CORE);
+            is_on_ground(tracks, track).then_some(half)
+        };
+        self.reaches_into(tracks, body, half)
     }
 
     /// Whether a body comes nearer to the path of a track than the half width that is meant of it, where one is.
@@ -251,10 +273,39 @@ impl Finder {
     }
 }
 
+/// Where a thing is in the way of vehicles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Obstructs {
+    /// Nowhere.
+    Nothing,
+    /// On bridges and in tunnels alone.
+    OffGround,
+    /// On a street on the ground.
+    Ground,
+}
+
+/// The lanes from which and to which a way across a junction leads, or a lane twice.
+fn ends_of(tracks: &Tracks, track: u32) -> [u32; 2] {
+    tracks.connection(track).map_or([track; 2], |way| [tracks.ways[way].from, tracks.ways[way].to])
+}
+
 /// The road of a lane, or that from which a way across a junction comes.
 fn road_of(tracks: &Tracks, track: u32) -> RoadId {
-    let lane = tracks.connection(track).map_or(track, |way| tracks.ways[way].from);
-    tracks.network.lanes[lane as usize].road
+    tracks.network.lanes[ends_of(tracks, track)[0] as usize].road
+}
+
+/// Whether a track lies on the ground from end to end.
+fn is_on_ground(tracks: &Tracks, track: u32) -> bool {
+    let network = &tracks.network;
+    ends_of(tracks, track)
+        .into_iter()
+        .all(|lane| network.roads[network.lanes[lane as usize].road.index()].level == 0)
+}
+
+/// The height of a street beside a place, m.
+fn street_height(network: &RoadNetwork, road: RoadId, at: Point2) -> f64 {
+    let near = polyline::closest(&network.roads[road.index()].centerline, &at);
+    network.height(road, near.map_or(0.0, |near| near.station))
 }
 
 impl Foreign {
