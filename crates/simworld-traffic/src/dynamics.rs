@@ -163,8 +163,7 @@ impl TrafficDynamics {
                 Obstructs::OffGround => first.get(&entity.id) != Some(&stance(entity)),
                 Obstructs::Ground => true,
             },
-            Some(Standing::Built) => traffic.is_on_a_track(&seen(entity)),
-            Some(Standing::Founded) => {
+            Some(Standing::Built) => {
                 first.get(&entity.id) != Some(&stance(entity)) && traffic.is_on_a_track(&seen(entity))
             }
             None => false,
@@ -261,7 +260,7 @@ const STANDS: f64 = 0.7;
 /// Whose number has no entity: no world has so many that one has this id.
 const NOBODY: EntityId = EntityId::new(u32::MAX, u32::MAX);
 
-/// Houses and traffic lights that stood over lanes when the traffic was made, and how: real places have houses over streets. Who moves
+/// What a city is built with that stood over lanes when the traffic was made, and how: real places have houses over streets. Who moves
 /// one puts it where it stands then.
 type First = BTreeMap<EntityId, (Pose, Shape)>;
 
@@ -313,10 +312,9 @@ enum Standing {
     /// Put somewhere, and in the way as soon as a vehicle would touch it. What does so on bridges and in tunnels alone, and from the
     /// beginning, are their own parts and what stands above them.
     Put,
-    /// What a street is built with beside its lanes, and in the way only where it stands on one.
+    /// What a street is built with beside its lanes, and in the way only where it stands on one; not if it does so from the beginning:
+    /// streets lead through houses, lights stand where streets meet, and maps have trees on lanes.
     Built,
-    /// The same of what may stand over a lane from the beginning: streets lead through houses, and lights stand where streets meet.
-    Founded,
 }
 
 /// What of the solid things that stand somewhere an entity is.
@@ -333,8 +331,9 @@ fn standing(entity: &EntityRef<'_>) -> Option<Standing> {
         | EntityKind::StreetLamp
         | EntityKind::Sign
         | EntityKind::Hydrant
-        | EntityKind::BusStop => Standing::Built,
-        EntityKind::Building | EntityKind::TrafficSignal => Standing::Founded,
+        | EntityKind::BusStop
+        | EntityKind::Building
+        | EntityKind::TrafficSignal => Standing::Built,
         _ => return None,
     };
     (entity.is_solid() && entity.attachment.is_none()).then_some(standing)
@@ -365,9 +364,9 @@ fn obstructs(traffic: &Traffic, entity: &EntityRef<'_>) -> Obstructs {
 /// What stands over lanes before there is traffic on them.
 fn at_first(world: &World, traffic: &Traffic) -> First {
     let is_over_a_lane = |entity: &EntityRef<'_>| match standing(entity) {
-        Some(Standing::Founded) => traffic.is_on_a_track(&seen(entity)),
+        Some(Standing::Built) => traffic.is_on_a_track(&seen(entity)),
         Some(Standing::Put) => obstructs(traffic, entity) == Obstructs::OffGround,
-        _ => false,
+        None => false,
     };
     world.iter().filter(is_over_a_lane).map(|entity| (entity.id, stance(&entity))).collect()
 }

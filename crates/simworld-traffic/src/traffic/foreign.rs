@@ -1,6 +1,7 @@
 //! Bodies that are not the traffic's own: found on lanes and crossings, so that drivers stop for them.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use simworld_core::geometry::{Point2, Vector2, direction};
 use simworld_core::id::RoadId;
@@ -33,6 +34,8 @@ const EDGE: f64 = 1.0;
 const OVERHEAD: f64 = 4.5;
 /// What rises above the surface of a street by less than this is driven over, m.
 const SURFACE: f64 = 0.05;
+/// The upper side of a part of a bridge is so far above its street, m: of piers and decks, walks and railings.
+const PART_OF_BRIDGE: RangeInclusive<f64> = -2.0..=1.5;
 /// Nor is who stands so far below it, m, as in a subway.
 const BELOW: f64 = 2.2;
 
@@ -197,8 +200,9 @@ impl Finder {
         obstacles.sort_by(|a, b| a.track.cmp(&b.track).then(a.near.total_cmp(&b.near)));
     }
 
-    /// On which streets a thing whose upper side is so high at a place, m, reaches into what the broadest vehicle sweeps. What lies below the surface
-    /// of a street, as the deck that bears it does, is in nobody's way there.
+    /// On which streets a thing whose upper side is so high at a place, m, reaches into what the broadest vehicle sweeps. What lies below
+    /// the surface of a street, as the deck that bears it does, is in nobody's way there. What reaches as high as the deck or the railings
+    /// of a bridge that it touches is a part of that, even where it stands on a street on the ground.
     pub(super) fn obstructs(
         &self,
         tracks: &Tracks,
@@ -206,7 +210,7 @@ impl Finder {
         top: &dyn Fn(Point2) -> f64,
     ) -> Obstructs {
         let network = &tracks.network;
-        let mut found = Obstructs::Nothing;
+        let (mut on_ground, mut off_ground, mut bears) = (false, false, false);
         for (at, reach) in body.discs().chain(body.corners()) {
             for track in self.tracks_at(at) {
                 let near = polyline::closest(tracks.path(track), &at);
@@ -214,17 +218,18 @@ impl Finder {
                     continue;
                 }
                 let road = road_of(tracks, track);
-                if top(at) < street_height(network, road, at) + SURFACE || body.is_clear_of(network, road, at)
-                {
-                    continue;
+                let above = top(at) - street_height(network, road, at);
+                bears |= network.roads[road.index()].level > 0 && PART_OF_BRIDGE.contains(&above);
+                if above >= SURFACE && !body.is_clear_of(network, road, at) {
+                    *(if is_on_ground(tracks, track) { &mut on_ground } else { &mut off_ground }) = true;
                 }
-                if is_on_ground(tracks, track) {
-                    return Obstructs::Ground;
-                }
-                found = Obstructs::OffGround;
             }
         }
-        found
+        match (on_ground, off_ground) {
+            (false, false) => Obstructs::Nothing,
+            (true, _) if !bears => Obstructs::Ground,
+            _ => Obstructs::OffGround,
+        }
     }
 
     /// Whether a body reaches into the middle of a track, over which everybody drives, and no farther than its lane is wide. What a street
@@ -278,7 +283,7 @@ impl Finder {
 pub(crate) enum Obstructs {
     /// Nowhere.
     Nothing,
-    /// On bridges and in tunnels alone.
+    /// On bridges and in tunnels alone, or as a part of a bridge.
     OffGround,
     /// On a street on the ground.
     Ground,
