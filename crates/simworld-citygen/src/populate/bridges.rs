@@ -1,6 +1,6 @@
 //! Bridges as entities: decks that one drives and walks over, parapets, abutments and piers. One passes below between them.
 
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::{Obb, Point2, Vector2};
 use simworld_core::net::polyline;
 use simworld_core::scene::{EntityDesc, EntityKind, Shape};
 
@@ -65,14 +65,17 @@ impl Parts<'_> {
             let middle = pier.at + pier.across * ((left - right) * 0.5);
             let along = Vector2::new(pier.across.y, -pier.across.x) * (PIER.0 * 0.5);
             let box_ = strip(middle - along, middle + along, half, half, 0.0);
-            let (foot, top) = pier.heights;
-            let mut pose = box_.pose;
-            pose.translation.z = foot;
-            let size = box_.half_extents * 2.0;
-            let shape = Shape::cuboid(size.x, size.y, (top - foot).max(0.1));
-            descs.push(EntityDesc::new(EntityKind::Prop, pose, shape));
+            descs.push(upright(&box_, pier.heights));
         }
     }
+}
+
+/// A box with the ground plan of a strip, from a height to another.
+pub(super) fn upright(plan: &Obb, (foot, top): (f64, f64)) -> EntityDesc {
+    let mut pose = plan.pose;
+    pose.translation.z = foot;
+    let size = plan.half_extents * 2.0;
+    EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(size.x, size.y, (top - foot).max(0.1)))
 }
 
 /// A box along a span between two distances to the left of the centreline, its top so far above the carriageway.

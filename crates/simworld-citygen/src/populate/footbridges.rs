@@ -1,10 +1,10 @@
 //! Footbridges as entities: decks and stairs that one walks on, railings, walls and piers. Stairs are inclined slabs.
 
-use simworld_core::geometry::{Obb, Vector2};
+use simworld_core::geometry::Vector2;
 use simworld_core::net::FOOTBRIDGE_DECK;
-use simworld_core::scene::{EntityDesc, EntityKind, Shape};
+use simworld_core::scene::{EntityDesc, EntityKind};
 
-use super::bridges::beam;
+use super::bridges::{beam, upright};
 use super::{GROUND_TOP, LAYER, Parts, SIDEWALK_TOP};
 use crate::decks::Pier;
 use crate::footbridges::{Flight, footbridges};
@@ -47,14 +47,6 @@ fn add(flight: &Flight, half: f64, descs: &mut Vec<EntityDesc>) {
         let box_ = strip(a, b, half - INSET, half - INSET, 0.0);
         descs.extend((top - foot > INSET).then(|| upright(&box_, (foot, top))));
     }
-}
-
-/// A box with the ground plan of a strip, from a height to another.
-fn upright(plan: &Obb, (foot, top): (f64, f64)) -> EntityDesc {
-    let mut pose = plan.pose;
-    pose.translation.z = foot;
-    let size = plan.half_extents * 2.0;
-    EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(size.x, size.y, (top - foot).max(0.1)))
 }
 
 fn column(pier: &Pier, half: f64) -> EntityDesc {

@@ -32,12 +32,12 @@ const EDGE: f64 = 1.0;
 /// Who is higher than this above a street is in nobody's way, m: on public roads vehicles are 4 m high at most in Europe (Directive
 /// 96/53/EC) and 14 feet in most states of the USA.
 const OVERHEAD: f64 = 4.5;
+/// Nor is who stands so far below it, m, as in a subway.
+const BELOW: f64 = 2.2;
 /// What rises above the surface of a street by less than this is driven over, m.
 const SURFACE: f64 = 0.05;
 /// The upper side of a part of a bridge is so far above its street, m: of piers and decks, walks and railings.
 const PART_OF_BRIDGE: RangeInclusive<f64> = -2.0..=1.5;
-/// Nor is who stands so far below it, m, as in a subway.
-const BELOW: f64 = 2.2;
 
 /// A body that is not the traffic's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
